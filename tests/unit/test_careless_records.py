@@ -1,0 +1,93 @@
+"""Records with lost rows, without a loss, with holds or an endless line are told or used right."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import pyrofit as pf
+from pyrofit.data.csvfile import read_table
+from pyrofit.errors import DataError
+from pyrofit.new_study import draft
+from pyrofit.new_study.plan import part_of
+from pyrofit.new_study.repeats import grouped
+
+R = 8.314462618
+RATES = 5.0, 10.0, 20.0
+RAMP_K = np.linspace(450.0, 800.0, 226)
+
+
+def left(time: np.ndarray, kelvin: np.ndarray) -> np.ndarray:
+    """Return the mass fraction of one reaction: 1e13 1/s, 180 kJ/mol, residue 0.15."""
+    rate = 1e13 * np.exp(-180e3 / (R * kelvin))
+    done = np.concatenate([[0.0], np.cumsum(0.5 * (rate[1:] + rate[:-1]) * np.diff(time))])
+    return 0.15 + 0.85 * np.exp(-done)
+
+
+def write(path: Path, *columns: np.ndarray) -> Path:
+    header = "Time (s),Temperature (K),Mass fraction (-)"
+    np.savetxt(path, np.column_stack(columns), "%.6f", ",", header=header, comments="")
+    return path
+
+
+def ramp(folder: Path, rate: float, lost: slice = slice(0), mass: float | None = None) -> Path:
+    """Write a record at a heating rate with noise, without some of its rows."""
+    time = (RAMP_K - RAMP_K[0]) / rate * 60.0
+    noise = 5e-4 * np.random.default_rng(int(rate)).standard_normal(RAMP_K.size)
+    values = left(time, RAMP_K) if mass is None else np.full(RAMP_K.size, mass)
+    kept = np.delete(np.arange(RAMP_K.size), np.arange(RAMP_K.size)[lost])
+    columns = (time[kept], RAMP_K[kept], (values + (noise if mass is None else 0.0))[kept])
+    return write(folder / f"board_N2_{rate:g}K.csv", *columns)
+
+
+def hold(path: Path, kelvin: float, drift_K: float) -> Path:
+    """Write a record of a heating at 10 K/min and a hold that drifts."""
+    time = np.linspace(0.0, 9000.0, 451)
+    reached = (kelvin - 450.0) * 6.0
+    course = (
+        np.minimum(450.0 + time / 6.0, kelvin) + drift_K * np.clip(time - reached, 0, None) / 9e3
+    )
+    return write(path, time, course, left(time, course))
+
+
+@pytest.mark.solver
+def test_fit_bridges_lost_rows(tmp_path: Path) -> None:
+    files = [ramp(tmp_path, rate, slice(95, 115)) for rate in RATES[:2]]
+    fit = pf.fit(pf.new_study("board", tga=files), profiles=False)
+    assert fit.values["E_p"] == pytest.approx(180.0, rel=0.02)
+    assert fit.values["y"] == pytest.approx(0.15, abs=0.003)
+
+
+def test_fit_of_a_constant_mass_is_refused(tmp_path: Path) -> None:
+    study = pf.new_study("board", tga=[ramp(tmp_path, 10.0, mass=1.0)])
+    with pytest.raises(DataError, match="all 226 values are equal"):
+        pf.fit(study, profiles=False)
+
+
+@pytest.mark.solver
+def test_simulation_at_data_reads_no_file_again(tmp_path: Path) -> None:
+    path = ramp(tmp_path, 10.0)
+    study = pf.new_study("board", tga=[path])
+    data = pf.read_data(study)
+    path.unlink()
+    values = {"T_p": 587.7, "E_p": 180.0, "y": 0.15}
+    found = pf.simulate(study, values, data=data).series["board_N2_10K", "mass_fraction"]
+    np.testing.assert_allclose(found["mass_fraction"], left(found["time_s"], RAMP_K), atol=2e-3)
+
+
+def test_a_line_of_megabytes_is_told_with_its_file(tmp_path: Path) -> None:
+    path = ramp(tmp_path, 10.0)
+    path.write_text(path.read_text() + "1" * 5_000_000 + "\n", encoding="utf-8")
+    with pytest.raises(DataError, match=r"board_N2_10K.csv"):
+        read_table(path)
+
+
+def test_repeats_of_a_hold_are_one_program_of_four(tmp_path: Path) -> None:
+    runs = [draft.measured("tga", ramp(tmp_path, rate)) for rate in RATES]
+    for n in (1, 2, 3):
+        path = hold(tmp_path / f"board_563Kiso_R{n}.csv", 563.0, 0.4)
+        runs.append(draft.measured("tga", path))
+    assert [run.number for run in runs[3:]] == pytest.approx([10.0] * 3, rel=0.03)
+    tests = grouped(runs)
+    assert len(tests) == 4
+    assert len(part_of("kinetics", tests).held_out) == 1
