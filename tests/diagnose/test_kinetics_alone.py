@@ -70,3 +70,12 @@ def test_hidden_effect_is_named(hidden: str, strength: dict[str, float]) -> None
 def test_nothing_is_named_where_nothing_is_hidden() -> None:
     truth = study({})
     assert diagnose(truth, computed(truth)).verdict.kind == "none"
+
+
+@pytest.mark.long
+def test_a_second_component_is_named_with_the_form_that_looks_alike() -> None:
+    truth = study({"second_component": {"share": 0.3}})
+    verdict = diagnose(truth, computed(truth)).verdict
+    assert verdict.kind == "named"
+    assert verdict.groups == ["reactions"]
+    assert "second component" in verdict.forms[0]

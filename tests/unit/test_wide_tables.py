@@ -1,4 +1,4 @@
-"""Tables that hold several tests side by side become a file each."""
+"""Tables that hold several tests, side by side or below each other, become a file each."""
 
 from pathlib import Path
 
@@ -129,3 +129,43 @@ def test_heat_flows_keep_their_names(tmp_path: Path) -> None:
     table = written(tmp_path / "a.csv", header, [T, mass(5) - 60.0, mass(10) - 60.0])
     first, _ = split("dsc", table, tmp_path)
     assert list(read_table(first).columns) == ["Time", "Temperature", "DSC"]
+
+
+@pytest.mark.parametrize(
+    ("header", "numbers", "names"),
+    [
+        ("Run,Time (s),Temperature (K),Mass (%)", (1, 2, 3), ("run1", "run2", "run3")),
+        (
+            "Heating rate (K/min),Time (s),Temperature (K),Mass (%)",
+            (5, 10, 20),
+            ("5K", "10K", "20K"),
+        ),
+        ("Time (s),Temperature (K),Mass (%),Sample No.", (4, 7, 9), ("run4", "run7", "run9")),
+    ],
+)
+def test_tests_below_each_other_become_a_file_each(
+    header: str, numbers: tuple[int, ...], names: tuple[str, ...], tmp_path: Path
+) -> None:
+    rates = 5.0, 10.0, 20.0
+    parts = []
+    for number, rate in zip(numbers, rates, strict=True):
+        own = [(T - T[0]) / rate * 60.0, T, mass(rate)]
+        label = [np.full(T.size, float(number))]
+        parts.append(np.column_stack([*own, *label] if header.endswith("No.") else [*label, *own]))
+    path = written(tmp_path / "all.csv", header, list(np.vstack(parts).T))
+    study, lines = init("x", {"tga": [path]}, tmp_path)
+    found = read_study(study).experiments
+    assert set(found) == {f"all_{name}" for name in names}
+    for name, rate in zip(names, rates, strict=True):
+        one = found[f"all_{name}"]
+        assert isinstance(one, HeatedExperiment)
+        assert one.heating_rate_K_min == pytest.approx(rate, rel=1e-3)
+    assert any("by a number of the test, became" in line for line in lines)
+
+
+def test_rows_without_a_number_of_their_test_stay_one_table(tmp_path: Path) -> None:
+    own = np.column_stack([6.0 * (T - T[0]), T, mass(10.0)])
+    path = written(
+        tmp_path / "all.csv", "Time (s),Temperature (K),Mass (%)", list(np.vstack([own, own]).T)
+    )
+    assert split("tga", path, tmp_path) == [path]

@@ -17,6 +17,7 @@ import pandas as pd
 from pyrofit.data.csvfile import Table, read_table
 from pyrofit.experiments import KINDS, files_of, measurable
 from pyrofit.new_study.headers import is_abscissa
+from pyrofit.new_study.long_tables import split_rows
 from pyrofit.results.files import write_csv
 from pyrofit.solver.arrays import FloatArray
 
@@ -49,7 +50,7 @@ class Part:
 
 
 def split(kind: str, path: Path, folder: Path) -> list[Path]:
-    """Return the files of the tests in a table, written to a folder.
+    """Return the files of the tests in a table, side by side or below each other, in a folder.
 
     The table itself, if it does not hold several.
 
@@ -60,7 +61,9 @@ def split(kind: str, path: Path, folder: Path) -> list[Path]:
     """
     table = read_table(path)
     tests = _tests(kind, table)
-    return [_written(kind, table, test, folder) for test in tests] if len(tests) > 1 else [path]
+    if len(tests) > 1:
+        return [_written(kind, table, test, folder) for test in tests]
+    return split_rows(kind, table, folder) or [path]
 
 
 def label_of(kind: str, header: str) -> Label | None:

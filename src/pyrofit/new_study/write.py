@@ -100,7 +100,8 @@ def _said_of_tables(files: Files, single: Files) -> list[str]:
     parts = [path.name for paths in single.values() for path in paths if path not in given]
     if not parts:
         return []
-    said = f"tables with several tests, told by the names of columns, became {', '.join(parts)}"
+    how = "told by the names of columns or by a number of the test"
+    said = f"tables with several tests, {how}, became {', '.join(parts)}"
     return [f"{said}. Times follow from the rates where the table has none"]
 
 
