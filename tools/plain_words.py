@@ -35,6 +35,7 @@ _PLAIN_WORD = re.compile(r"(?<![\w^.])[A-Za-z]{2,}(?:[-'’][A-Za-z]+)*(?![\w^(]
 """A word of prose: no symbol of a formula, no name with an underscore, no number."""
 _INDENTED = re.compile(r"^\S.*\n(?= {4}\S)|^ {4}.*\n(?=\S)", re.M)
 """The end of a line before one of another indentation, as of the terms of a section."""
+_LIST = re.compile(r": CODE(?:,\s+CODE)+(?=\.?\s*\Z)")
 _SHORT_FORMS = re.compile(r"\b(e\.g|i\.e|cf|vs|et al|Eqs?|Figs?|No|approx)\.")
 
 
@@ -123,13 +124,17 @@ def long_docstrings(source: str) -> Iterator[tuple[str, str]]:
 
 
 def sentences(block: str) -> list[str]:
-    """Split a block of prose into sentences, a list of inline code counting as a word.
+    """Split a block of prose into sentences.
 
-    >>> sentences("A `b c` is d. It is e, cf. Fig. 2.")
-    ['A CODE is d.', 'It is e, cf Fig 2.']
+    Inline code counts as a word. So does a list of it after a colon, which is no prose.
+
+    >>> sentences("A `b c` is `d` or `e`. It is f, cf. Fig. 2.")
+    ['A CODE is CODE or CODE.', 'It is f, cf Fig 2.']
+    >>> sentences("Units: `m`, `mm`, `K`.")
+    ['Units: CODE.']
     """
     plain = re.sub(r"`[^`]*`", "CODE", block)
-    plain = re.sub(r"CODE(?:(?:, | and | or |, and )CODE)+", "CODE", plain)
+    plain = _LIST.sub(": CODE", plain)
     plain = re.sub(r"!?\[([^\]]*)\]\([^)]*\)", r"\1", plain)
     plain = re.sub(r"<[^>]*>", " ", plain)
     plain = _SHORT_FORMS.sub(r"\1", plain)

@@ -20,6 +20,8 @@ def findings() -> Callable[[Path], list[tuple[str, str]]]:
     [
         ("page.md", f"# What it is\n\n{'word ' * 25}.\n\n    {'code ' * 30}\n", []),
         ("page.md", f"{'word ' * 26}.\n", ["26 words"]),
+        ("page.md", f"Keys {'`a`, ' * 25}and so on.\n", ["29 words"]),
+        ("page.md", f"Units: {'`a`, ' * 30}`b`.\n", []),
         ("page.md", "It does what it says. What is it?\n", ["what"]),
         ("page.md", f"- {'word ' * 20}.\n- {'word ' * 20}\n", []),
         ("page.md", f"| {'word ' * 20} | what it is |\n|---|---|\n", ["what"]),

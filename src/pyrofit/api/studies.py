@@ -85,7 +85,7 @@ def _check_kept(old: Mapping[str, Any], new: Any) -> None:
         if held and (parameter.get("lower") is None or parameter.get("upper") is None):
             raise StudyError(
                 f"parameters.{name}.fixed: a study that was read has no limits of a fixed "
-                "parameter; give `lower` and `upper` as well, and name it under `estimate`"
+                "parameter. Give `lower` and `upper` as well, and name it under `estimate`"
             )
         if parameter.get("expression") != before.get("expression"):
             raise StudyError(

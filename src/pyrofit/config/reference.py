@@ -27,6 +27,8 @@ Units of parameters: {units}.
 
 This page is generated: `pyrofit reference > config/README.md`.
 """
+SEVERAL = 3
+"""Places that stand on a line of their own."""
 _WORDS: dict[Any, str] = {float: "number", int: "whole number", str: "text", Any: "anything"}
 
 
@@ -91,7 +93,9 @@ def _section(part: type[Part], places: list[str], bases: list[type[Part]]) -> st
     if not places:  # a key that each kind describes itself
         rows = [row for row in rows if ": ." not in row]
     title = ", ".join(f"`{place}`" for place in places if place)
-    lead = f"{title}: " if title else "" if bases or places != [""] else "The whole file: "
+    # A list of places would make the sentence long.
+    of_places = f"{title}: " if len(places) < SEVERAL else f"{title}\n\n"
+    lead = of_places if title else "" if bases or places != [""] else "The whole file: "
     also = f" Further keys: [{bases[0].__name__}](#{bases[0].__name__.lower()})." if bases else ""
     lines = [f"## {part.__name__}", "", f"{lead}{_sentence(part)}{also}"]
     if rows:

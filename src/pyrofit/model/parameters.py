@@ -67,7 +67,7 @@ class Parameter(Part):
     expression: str | None = Field(
         None,
         description="instead of value and limits: arithmetic on other parameters, such as "
-        "`0.5 * cp_a`, each in its own unit; the result is in this parameter's",
+        "`0.5 * cp_a`; each parameter counts in its own unit",
     )
     label: str = Field("", description="the parameter in words")
 

@@ -76,8 +76,8 @@ class Signal(Part):
     quantity: str = Field("", description="measured quantity, where the signal has another name")
     columns: dict[str, str] = Field(
         default_factory=dict,
-        description="header names of time, value, uncertainty, temperature where not recognised, "
-        "and of the limits of a band, lower and upper, for the cost BANDS",
+        description="headers of time, value, uncertainty, temperature where not recognised, and of "
+        "the limits of a band, lower and upper, for the cost BANDS",
     )
     units: dict[str, str] = Field(
         default_factory=dict, description="units of these columns where the file has none"

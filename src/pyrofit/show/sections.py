@@ -1,7 +1,7 @@
 """All tables and figures of a study, in the sections of the report.
 
 A file in the folder of a subject that defines ``TABLE`` or ``FIGURE`` is made by the workflow and
-stands in the report; nothing else needs to know it.
+stands in the report. Nothing else needs to know it.
 """
 
 from pyrofit.config import Study
