@@ -168,15 +168,19 @@ def facts_in(study: Study, results: Results) -> Facts:
     return facts_of(study, results, tables_of(study, results))
 
 
-def test_chi_square_near_one_beside_a_misfit_is_explained(tmp_path: Path) -> None:
+def test_report_says_what_chi_square_near_one_is_for_beside_a_misfit(tmp_path: Path) -> None:
     study, results = fake(tmp_path)
     facts = facts_in(study, results)
-    assert not any("Both are right" in text for text in told(study, facts))
+    beginning = "Chi-square per point, "
+    assert not any(text.startswith(beginning) for text in told(study, facts))
     # 19.8 over 18 degrees of freedom; p stays 0.002.
     path = results.identification("noise.json")
     write_json(path, {**read_json(path), "chi2": 19.8})
-    (text,) = (t for t in told(study, facts_in(study, results)) if "Both are right" in t)
-    assert text.startswith("Chi-square per point is 1.1 there, near the 1 of noise, and yet")
+    (text,) = (t for t in told(study, facts_in(study, results)) if t.startswith(beginning))
+    assert text.startswith("Chi-square per point, 1.1, says only that the residuals are as large")
+    assert text.endswith(
+        "Judge the model by the test; use chi-square to compare fits of the same tests."
+    )
 
 
 def told(study: Study, facts: Facts) -> tuple[str, ...]:

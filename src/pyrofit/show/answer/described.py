@@ -20,18 +20,18 @@ def described(study: Study, facts: Facts) -> Iterator[str]:
         if not found.describes:
             text += "".join(f" {where}" for where in missed_most(study, found, 1))
         yield text
-        yield from _both_right(found, facts.chi2_per_point[stage])
+        yield from _two_numbers(found, facts.chi2_per_point[stage])
     yield from _repeats(facts)
 
 
-def _both_right(found: Goodness, chi2: float) -> Iterator[str]:
-    """Explain a chi-square near 1 beside a fit that misses."""
+def _two_numbers(found: Goodness, chi2: float) -> Iterator[str]:
+    """Say what each of two numbers is for, where chi-square is near 1 and the fit misses."""
     low, high = NEAR_ONE
     if found.p < LEVEL and low <= chi2 <= high:
         yield (
-            f"Chi-square per point is {chi2:.2g} there, near the 1 of noise, and yet the model "
-            "misses. Both are right: chi-square adds up the sizes of the residuals, whatever "
-            "their order. The test looks at their order, and finds them on one side for long."
+            f"Chi-square per point, {chi2:.2g}, says only that the residuals are as large as the "
+            "noise. The test says that they stay on one side for long, as noise does not. Judge "
+            "the model by the test; use chi-square to compare fits of the same tests."
         )
 
 
