@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pyrofit.show import style
+from pyrofit.show.text import several
 from pyrofit_files import look_picture as picture
 from pyrofit_files.looked import Looked
 from pyrofit_files.looked import look as look_at
@@ -34,6 +35,11 @@ class Look:
     def __str__(self) -> str:
         """Return the lines as one text."""
         return "\n".join(self.lines)
+
+    def __repr__(self) -> str:
+        """Return how many files and tests there are; print it for what they are taken for."""
+        files, tests = len(self.looked.files), len(self.looked.tests)
+        return f"{several(files, 'file')}, {several(tests, 'record')}; print it to see them"
 
     def plot(self) -> "Figure":
         """Return a figure with a panel for each quantity of each test.

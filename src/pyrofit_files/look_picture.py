@@ -15,8 +15,12 @@ from pyrofit.show.drawn import Axes, Canvas
 from pyrofit_files.looked import Looked, Series, abscissa, derivative
 
 ENDINGS = (".png", ".svg", ".html")
-LONGEST = 40
-"""Letters of a name."""
+LONGEST, OF_REPEAT = 40, 14
+"""Letters of a name, of that of a repeat ..."""
+OF_TITLE, OF_LABEL = 54, 28
+"""... and of a line of a title, and of a label."""
+ROW, IN_A_COLUMN = 50.0, 10
+"""Height of a row of panels [mm], and repeats in a column of a legend."""
 OF_SAMPLE = {
     "mass": Shown("g", 1e3),
     "mass rate": Shown("g/s", 1e3),
@@ -43,7 +47,7 @@ def draw(looked: Looked) -> Canvas:
         raise DataError(
             "nothing is recognised in these files; `pyrofit data doctor FOLDER` says why"
         )
-    canvas, axes = style.panels(len(panels), 2, style.TWO_COLUMNS, 62.0)
+    canvas, axes = style.panels(len(panels), 2, style.TWO_COLUMNS, ROW, smaller=False)
     for ax, (test, is_rate) in zip(axes, panels, strict=True):
         _panel(ax, test, is_rate)
     return canvas
@@ -58,24 +62,34 @@ def _panel(ax: Axes, test: Series, is_rate: bool) -> None:
         if is_rate:
             at, values = derivative(at, values)
         values = unit.factor * values + (0.0 if is_rate else unit.offset)
-        look: dict[str, Any] = {"color": style.colour(i), "linestyle": style.dashes(i)}
-        label = name.removeprefix(test.name).strip("_- ") or name
+        dashes = style.dashes(i + i // len(style.COLOURS))  # other ones when colours return
+        look: dict[str, Any] = {"color": style.colour(i), "linestyle": dashes}
+        label = _short(name.removeprefix(test.name).strip("_- ") or name, OF_REPEAT)
         ax.plot(at - ICE_POINT_K if against else at, values, label=label, linewidth=0.9, **look)
-    ax.set_xlabel("temperature [°C]" if against else "time [s]")
+    ax.set_xlabel("temperature [°C]" if against else "time [s]", fontsize=6.5)
     ax.set_ylabel(_label(test, is_rate), fontsize=6.5)
+    ax.tick_params(labelsize=6.5)
     ax.set_title(_title(test, is_rate), loc="left", fontsize=7.0)
     if len(test.records) > 1:
-        ax.legend(fontsize=6.0, handlelength=1.5, frameon=False)
+        # Beside the panel: repeats cover the whole of it.
+        columns = -(-len(test.records) // IN_A_COLUMN)
+        beside: dict[str, Any] = {"loc": "upper left", "bbox_to_anchor": (1.0, 1.0)}
+        ax.legend(fontsize=6.0, handlelength=1.5, frameon=False, ncols=columns, **beside)
+
+
+def _short(name: str, letters: int) -> str:
+    """Return a name, cut if it is long; its end tells repeats apart."""
+    return name if len(name) <= letters else f"…{name[1 - letters :]}"
 
 
 def _title(test: Series, is_rate: bool) -> str:
     """Return name, kind and repeats of a test, and column and unit as they were understood."""
-    name = test.name if len(test.name) <= LONGEST else f"{test.name[: LONGEST - 1]}…"
+    name = _short(test.name, LONGEST)
     repeats = f", {len(test.records)} repeats" if len(test.records) > 1 else ""
     disagree = " that disagree" if test.disagreements else ""
     columns = dict.fromkeys(f"'{s.header}' [{s.unit or 'no unit'}]" for _, s in test.records)
     below = "derivative" if is_rate else ", ".join(columns)
-    return f"{name}\n{test.kind}{repeats}{disagree}: {below}"
+    return f"{name}\n" + style.in_lines(f"{test.kind}{repeats}{disagree}: {below}", OF_TITLE)
 
 
 def _shown(test: Series) -> Shown:
@@ -91,10 +105,11 @@ def _label(test: Series, is_rate: bool) -> str:
     unit = _shown(test).unit
     if test.scale in OF_SAMPLE:
         title = f"{test.scale} of the sample"
-    if not is_rate:
-        return f"{title} [{unit}]"
-    per = "K" if quantity is not None and quantity.against_temperature else "s"
-    return f"loss of {title}\n[{'1' if unit in ('–', '-') else unit}/{per}]"
+    if is_rate:
+        title = f"loss of {title}"
+        per = "K" if quantity is not None and quantity.against_temperature else "s"
+        unit = f"{'1' if unit in ('–', '-') else unit}/{per}"
+    return style.in_lines(f"{title} [{unit}]", OF_LABEL)
 
 
 def write(looked: Looked, path: Path) -> None:

@@ -14,6 +14,7 @@ from pyrofit.errors import StudyError
 from pyrofit.results.files import Results, read_csv, write_csv
 from pyrofit.show import style
 from pyrofit.show.curves import tests_of as groups_of
+from pyrofit.show.identification.profiles import profiles
 from pyrofit.show.kinetics.drawing import slope
 from pyrofit.show.kinetics.kinetics_all_rates import kinetics_all_rates
 from pyrofit.show.matrix import draw_matrix
@@ -246,3 +247,22 @@ def test_unknown_subject_names_the_nearest(tmp_path: Path) -> None:
     study, results = fake(tmp_path)
     with pytest.raises(StudyError, match="Did you mean 'kinetics'"):
         make_subject("kinetic", study, results)
+
+
+def test_parameter_at_a_limit_without_a_profile_has_no_empty_panel(tmp_path: Path) -> None:
+    study, results = fake(tmp_path)
+    path = results.identification("estimate.csv")
+    table = read_csv(path)
+    at_limit = table["parameter"] == "k_a"
+    table.loc[at_limit, "bound"] = "lower"
+    profiles_path = results.identification("profiles.csv")
+    curves = read_csv(profiles_path)
+    write_csv(profiles_path, curves[curves["parameter"] != "k_a"])
+    before = len(profiles(study, results).axes)
+    write_csv(path, table)
+    assert len([ax for ax in profiles(study, results).axes if ax.axison]) == before - 1
+    table["bound"] = "upper"
+    write_csv(path, table)
+    write_csv(profiles_path, curves.iloc[:0])
+    (ax,) = profiles(study, results).axes
+    assert ax.texts[0].get_text() == "all parameters are at limits"

@@ -114,3 +114,28 @@ def test_interface_looks_at_a_folder(tmp_path: Path) -> None:
     assert len(drawn) == 5  # two masses with derivatives, one temperature
     found.write(tmp_path / "look.png")
     assert (tmp_path / "look.png").is_file()
+
+
+def test_texts_of_many_panels_neither_overlap_nor_leave_the_picture(tmp_path: Path) -> None:
+    for flux in (20, 30, 40, 50, 60):
+        for n in range(1, 9):
+            slab(tmp_path / f"LongNameOfALab_Gasification_N2_{flux}kW_perpendicular_{n}.csv")
+    canvas = pf.look(tmp_path).plot()
+    drawn = [ax for ax in canvas.axes if ax.lines]
+    assert len(drawn) == 15
+    # A mass and its derivative stand in one row.
+    rows = [ax.get_position(original=True).y0 for ax in drawn]
+    assert rows[0] == pytest.approx(rows[1])
+    canvas.draw_without_rendering()
+    boxes = [
+        text.get_window_extent()
+        for ax in drawn
+        for text in (ax._left_title, ax.yaxis.label, ax.get_legend())
+    ]
+    for i, box in enumerate(boxes):
+        assert canvas.bbox.x0 <= box.x0
+        assert box.x1 <= canvas.bbox.x1
+        assert box.y1 <= canvas.bbox.y1
+        assert not any(box.overlaps(other) for other in boxes[:i])
+    looks = {(line.get_color(), str(line._dash_pattern)) for line in drawn[0].lines}
+    assert len(looks) == 8

@@ -103,8 +103,8 @@ def residuals(
     ax.plot(x, difference(quantity, off), color=style.COLOURS[1], linewidth=0.8)
     style.zero_line(ax)
     _labels(ax, study, key)
-    words = study.experiments[key[0]].words(key[1])
-    ax.set_ylabel(f"residual of the {words}\n[{difference_unit(quantity)}]")
+    words = style.in_lines(f"residual of the {study.experiments[key[0]].words(key[1])}")
+    ax.set_ylabel(f"{words}\n[{difference_unit(quantity)}]")
 
 
 def intervals(ax: Axes, table: pd.DataFrame) -> None:

@@ -89,9 +89,10 @@ def _draw_measured(ax: Axes, study: Study, results: Results, name: str, signal: 
 
 
 def label_of(study: Study, name: str, signal: str) -> str:
-    """Return the label of an axis: the signal in words and the unit shown."""
+    """Return the label of an axis, in short lines: the signal in words and the unit shown."""
     experiment = study.experiments[name]
-    return f"{experiment.words(signal)} [{experiment.quantity(signal).shown.unit}]"
+    unit = experiment.quantity(signal).shown.unit
+    return style.in_lines(f"{experiment.words(signal)} [{unit}]")
 
 
 _MEASURED: Look = {"color": style.MEASURED, "linewidth": 0.7}

@@ -1,6 +1,7 @@
 """How figures look: one style, colours and line styles that differ in grey, widths."""
 
 import io
+import textwrap
 from collections.abc import Sequence
 from typing import Any
 
@@ -97,6 +98,10 @@ MANY, MOST_COLUMNS = 12, 3
 """Panels beyond which a figure has more columns, and how many."""
 
 
+LONGEST_LABEL = 30
+"""Letters of a line of a label: at 8 points they are as long as the axis of a panel."""
+
+
 def colour(i: int) -> str:
     """Return the colour of the i-th curve."""
     return COLOURS[i % len(COLOURS)]
@@ -115,16 +120,17 @@ def cost_styles(study: Study) -> dict[str, Look]:
 
 
 def panels(
-    count: int, columns: int, width: float, height: float, **options: Any
+    count: int, columns: int, width: float, height: float, smaller: bool = True, **options: Any
 ) -> tuple[Canvas, list[Axes]]:
     """Return a canvas with ``count`` panels in rows; sizes in mm, the height is a row's.
 
-    Many panels are smaller, three in a row, so that the figure is not too long.
+    Many panels are smaller, three in a row, so that the figure is not too long; not so where they
+    are pairs, without ``smaller``.
     """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    if count > MANY and columns < MOST_COLUMNS:
+    if smaller and count > MANY and columns < MOST_COLUMNS:
         columns, height = MOST_COLUMNS, height * columns / MOST_COLUMNS
     columns = min(columns, count)
     rows = -(-count // columns)
@@ -177,6 +183,15 @@ def legend_below(canvas: Canvas, entries: Sequence[Line2D | Patch]) -> None:
     rows = -(-len(entries) // columns)
     even = -(-len(entries) // rows)
     canvas.legend(handles=list(entries), loc="outside lower center", ncols=even)
+
+
+def in_lines(text: str, letters: int = LONGEST_LABEL) -> str:
+    """Return a label in lines of some letters, so that it is no longer than its axis.
+
+    >>> in_lines("interface temperature (back_temperature_1) [°C]").splitlines()
+    ['interface temperature', '(back_temperature_1) [°C]']
+    """
+    return "\n".join(textwrap.wrap(text, letters, break_long_words=False))
 
 
 def zero_line(ax: Axes) -> None:

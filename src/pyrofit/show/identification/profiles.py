@@ -35,7 +35,12 @@ def profiles(study: Study, results: Results) -> Canvas:
     found = estimates(study, results)
     dispersion = noise(results).dispersion
     curves = read_csv(results.identification("profiles.csv"))
-    canvas, axes = style.panels(len(found), 3, style.TWO_COLUMNS, 50.0)
+    found = found[[_has_curve(row, curves) for _, row in found.iterrows()]]
+    canvas, axes = style.panels(max(len(found), 1), 3, style.TWO_COLUMNS, 50.0)
+    if found.empty:
+        axes[0].set_axis_off()
+        axes[0].text(0.5, 0.5, "all parameters are at limits", ha="center", va="center")
+        return canvas
     style.letter(axes, list(found.index))
     for i, (ax, name) in enumerate(zip(axes, found.index, strict=True)):
         curve = curves[curves["parameter"] == name]
@@ -44,6 +49,11 @@ def profiles(study: Study, results: Results) -> Canvas:
             ax.set_ylabel("rise of χ² [–]")
     style.legend_below(canvas, _entries(dispersion))
     return canvas
+
+
+def _has_curve(row: pd.Series, curves: pd.DataFrame) -> bool:
+    """Tell whether there is anything to draw: at a limit there is no parabola."""
+    return not row["bound"] or bool((curves["parameter"] == row["parameter"]).any())
 
 
 def _draw_profile(
@@ -98,13 +108,15 @@ def _entries(dispersion: float) -> list[Any]:
 
 def verdict(study: Study, facts: Facts) -> str:
     """Say which intervals are those of profiles."""
-    if not facts.goodness["imp"].describes:
-        return "The model misses its tests: all intervals are linear and include the misfit."
     ours = [e for e in facts.estimates if e.stage == "imp"]
+    at_limits = [e.name for e in ours if e.bound and e.method != "profile"]
+    left = f" Not drawn, as they are at limits: {listed(at_limits)}." if at_limits else ""
+    if not facts.goodness["imp"].describes:
+        return "The model misses its tests: all intervals are linear and include the misfit." + left
     bent = [e.name for e in ours if e.method == "profile"]
     if not bent:
-        return "All intervals are linear: chi-square follows its parabola."
-    return f"Intervals by profile: {listed(bent)}. Linear ones: {len(ours) - len(bent)}."
+        return "All intervals are linear: chi-square follows its parabola." + left
+    return f"Intervals by profile: {listed(bent)}. Linear ones: {len(ours) - len(bent)}.{left}"
 
 
 FIGURE = Figure(

@@ -9,6 +9,7 @@ from pyrofit.quantities.base import Quantity
 from pyrofit.quantities.units import ICE_POINT_K
 from pyrofit.results.files import Results, read_csv
 from pyrofit.show import style
+from pyrofit.show.curves import label_of
 from pyrofit.show.drawn import Axes, Canvas, Line2D, Patch
 from pyrofit.show.units import shown
 from pyrofit.steps.preview.record import BANDS, Found, Window
@@ -85,8 +86,7 @@ def draw(study: Study, name: str, bands: pd.DataFrame, found: Found) -> Canvas:
 def _panel(
     ax: Axes, study: Study, name: str, signal: str, frame: pd.DataFrame, windows: list[Window]
 ) -> None:
-    experiment = study.experiments[name]
-    quantity = experiment.quantity(signal)
+    quantity = study.experiments[name].quantity(signal)
     at = _abscissa(quantity, frame["at"])
     low, high = (shown(quantity, frame[c]) for c in ("lower", "upper"))
     ax.fill_between(at, low, high, color=ALL, linewidth=0.0)
@@ -98,7 +98,7 @@ def _panel(
     off = np.any(inside, axis=0) if inside else np.zeros(len(frame), dtype=bool)
     ax.plot(at[off], value[off], color=OUTSIDE, linestyle="none", marker="x", markersize=4.0)
     ax.set_xlabel("temperature [°C]" if quantity.against_temperature else "time [s]")
-    ax.set_ylabel(f"{experiment.words(signal)} [{quantity.shown.unit}]")
+    ax.set_ylabel(label_of(study, name, signal))
 
 
 def _abscissa(quantity: Quantity, at: pd.Series) -> np.ndarray:
