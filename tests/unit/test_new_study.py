@@ -269,8 +269,8 @@ FLUXES = {
 def test_largest_of_several_fluxes_is_held_out(
     kind: str, files: tuple[str, ...], folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    for name in files:
-        write(name, "Time [s],MLR [g/m2/s]", SECONDS, 1e3 * MLR)
+    for i, name in enumerate(files):
+        write(name, "Time [s],MLR [g/m2/s]", SECONDS, (1e3 + i) * MLR)
     study = made(f"--{kind}", *files)
     (held,) = not_in_costs(study)
     assert "60" in held

@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.api.arguments import word_of
-from pyrofit.api.given_tables import as_table
+from pyrofit.api.given_tables import as_table, named
 from pyrofit.config import Study, as_study
 from pyrofit.config.study import IN_MEMORY
 from pyrofit.config.yaml_file import read_mapping
@@ -57,7 +57,8 @@ def new_study(name: str, **given: Given) -> Study:
     -----
     UserWarning
         Of a heating rate, flux, unit or column that neither a record nor its name tells, and of a
-        record that contradicts its name.
+        record that contradicts its name. Of two records with the same numbers, which the study
+        has and which it leaves out.
 
     Examples
     --------
@@ -81,14 +82,14 @@ def new_study(name: str, **given: Given) -> Study:
                 f"{', '.join(OF_FILES)}"
             )
         try:
-            text, records = drafted(name, paths)
+            text, records, copied = drafted(name, paths)
         except (DataError, StudyError) as error:
-            raise type(error)(_labelled(str(error), labels)) from None
+            raise type(error)(named(str(error), labels)) from None
         draft = Path(folder) / "draft.yaml"
         draft.write_text(text, encoding="utf-8")
         keys = read_mapping(draft)
-    for line in assumed(records):
-        warnings.warn(f"study '{name}': {_labelled(line, labels)}", stacklevel=2)
+    for line in [*copied, *assumed(records)]:
+        warnings.warn(f"study '{name}': {named(line, labels)}", stacklevel=2)
     where = {
         f"data/{record.name}.csv": IN_MEMORY if str(record.path) in labels else str(record.path)
         for record in records
@@ -148,13 +149,6 @@ def _quantity_of_arrays(kind: str, given: Any, label: str) -> Quantity:
         f"{label}: a test of the kind {kind} measures {', '.join(known)}; give a table whose "
         "headers tell the quantities"
     )
-
-
-def _labelled(text: str, labels: Mapping[str, str]) -> str:
-    """Return a text that names series in memory instead of their files."""
-    for path, label in labels.items():
-        text = text.replace(path, label)
-    return text
 
 
 def _with_files(part: Any, where: Mapping[str, str]) -> Any:

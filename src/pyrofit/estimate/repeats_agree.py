@@ -142,7 +142,7 @@ def _compared(
     share = np.abs(sizes) / [tolerance.start * length, tolerance.level, tolerance.shape]
     # Level and start mean little where the shape is another.
     kind = 2 if share[2] > 1.0 else int(np.argmax(share))
-    off = np.abs(warp.left) > 0.5 * np.max(np.abs(warp.left))
+    off = np.abs(warp.left) >= 0.5 * np.max(np.abs(warp.left))
     low, high = (float(end) for end in grid[off][[0, -1]])
     named = Difference(i, ("start", "level", "shape")[kind], float(sizes[kind]), low, high)
     return _Compared(named, float(share.max()))

@@ -15,6 +15,7 @@ from pyrofit.errors import DataError, StudyError
 from pyrofit.experiments import OF_FILES, files_of
 from pyrofit.experiments.base import Stage
 from pyrofit.new_study import draft
+from pyrofit.new_study.copied import without_copies
 from pyrofit.new_study.divisor import USUAL_AREA_M2
 from pyrofit.new_study.draft import Kinetics, Measured
 from pyrofit.new_study.marks import asked_once
@@ -81,11 +82,11 @@ def init(name: str, files: Files, parent: Path) -> tuple[Path, list[str]]:
     _check(name, folder, files)
     with TemporaryDirectory() as parts:
         single = {kind: _split(kind, paths, Path(parts)) for kind, paths in files.items()}
-        records = _records(single)
+        records, copied = without_copies(_records(single))
         tests = grouped(records) or computed()
         study = _write(folder, study_text(name, tests), records)
     heated, slabs = (part_of(stage, tests) for stage in STAGES)
-    lines = [line for run in records for line in said(run)] + said_of_repeats(tests)
+    lines = [line for run in records for line in said(run)] + copied + said_of_repeats(tests)
     lines = [line.replace(parts, f"{folder / 'data'}") for line in lines]
     lines = [*_said_of_tables(files, single), *lines]
     lines += held_out(heated) if heated.held_out else []
@@ -116,10 +117,10 @@ def _records(files: Files) -> list[Measured]:
     return records
 
 
-def drafted(name: str, files: Files) -> tuple[str, list[Measured]]:
-    """Return the text of a study for measured files, and the records in them; write nothing.
+def drafted(name: str, files: Files) -> tuple[str, list[Measured], list[str]]:
+    """Return the text of a study for measured files, the records in them, and lines on copies.
 
-    In the text the files are ``data/<record>.csv``.
+    Nothing is written. In the text the files are ``data/<record>.csv``.
 
     Raises
     ------
@@ -129,8 +130,8 @@ def drafted(name: str, files: Files) -> tuple[str, list[Measured]]:
         A file is no table of numbers.
     """
     _check_name(name)
-    records = _records(files)
-    return study_text(name, grouped(records)), records
+    records, copied = without_copies(_records(files))
+    return study_text(name, grouped(records)), records, copied
 
 
 def _write(folder: Path, text: str, records: Sequence[Measured]) -> Path:

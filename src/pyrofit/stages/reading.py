@@ -7,6 +7,7 @@ from pathlib import Path
 import pandas as pd
 
 from pyrofit.analysis.agreement import disagreements
+from pyrofit.analysis.copied_records import notes_on_copies
 from pyrofit.analysis.differing_repeats import notes_on_repeats
 from pyrofit.config import Study, TermSpec
 from pyrofit.config.study import IN_MEMORY
@@ -79,8 +80,12 @@ def read_all(study: Study, macfp: bool = True) -> dict[tuple[str, str], Read]:
             # One file may serve several experiments.
             if not any(line.endswith(str(error)) for line in wrong):
                 wrong.append(f"{_place(name, label)}: {error}")
-    for key, note in notes_on_repeats(study, {key: frame for key, (frame, _) in series.items()}):
+    frames = {key: frame for key, (frame, _) in series.items()}
+    for key, note in notes_on_repeats(study, frames):
         series[key][1].notes.append(f"{key[0]} {note}")
+    sources = {key: about.source for key, (_, about) in series.items()}
+    for key, note in notes_on_copies(study, frames, sources):
+        series[key][1].notes.append(note)
     if len(wrong) == 1:
         raise DataError(wrong[0])
     if wrong:
