@@ -72,6 +72,10 @@ class Explorer:
         """Address of the page."""
         return self.server.address
 
+    def __repr__(self) -> str:
+        """Return the address of the page."""
+        return f"page of a study at {self.address}"
+
     def _repr_html_(self) -> str:
         return f'<iframe src="{self.address}" width="100%" height="800"></iframe>'
 

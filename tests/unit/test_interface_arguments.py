@@ -1,5 +1,6 @@
 """Every argument of the Python interface that is of a wrong kind ends in an error of pyrofit."""
 
+import re
 from inspect import signature
 from pathlib import Path
 
@@ -74,3 +75,32 @@ def test_axes_of_a_wrong_kind_are_refused(given: object) -> None:
     curves = pf.Curves(STUDY, DATA, MEASURED)
     with pytest.raises(pf.PyrofitError, match="ax: Axes of Matplotlib"):
         curves.plot("tga_5K", ax=given)
+
+
+@pytest.mark.parametrize(
+    ("column", "value", "said"),
+    [
+        ("temperature_K", np.nan, "given an empty cell or NaN"),
+        ("mass_fraction", np.inf, "given 'inf'"),
+        ("time_s", 0.0, "given 0; time must exceed"),
+    ],
+)
+def test_wrong_element_of_an_array_is_named_by_its_index(
+    column: str, value: float, said: str
+) -> None:
+    wrong = RECORD.copy()
+    wrong.loc[10, column] = value
+    message = f"data of tga_5K, mass_fraction, index 10, column '{column}': {said}"
+    for given in (wrong, wrong.to_numpy(), tuple(wrong.to_numpy().T)):
+        with pytest.raises(pf.PyrofitError, match=re.escape(message)):
+            pf.read_data(STUDY, [KEY], {KEY: given})
+
+
+def test_every_class_of_the_interface_has_a_short_form_of_its_own() -> None:
+    classes = [one for name in pf.__all__ if isinstance(one := getattr(pf, name), type)]
+    classes = [one for one in classes if not issubclass(one, Exception)]
+    assert len(classes) >= 9
+    # That of a dataclass, which wraps a function, lists all fields with their tables and arrays.
+    assert [one.__name__ for one in classes if hasattr(one.__repr__, "__wrapped__")] == []
+    curves = pf.Curves(STUDY, DATA, MEASURED)
+    assert len(repr(curves)) < 200

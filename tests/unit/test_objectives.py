@@ -14,7 +14,6 @@ WRONG = [
     ([600.0], "the shape is"),
     ("high", "numbers are needed"),
     (None, "the shape is"),
-    ([600.0, np.nan], "a number is not finite"),
     ({"T_p": 600.0}, "give exactly T_p, E_p"),
     ({"T_p": 600.0, "E_p": 190.0, "k": 0.2}, "give exactly T_p, E_p"),
     (np.ones((2, 2, 2)), "the shape is"),
@@ -69,3 +68,20 @@ def test_wrong_vector_is_explained(
 ) -> None:
     with pytest.raises(StudyError, match=message):
         pf.log_likelihood(study, data, signals="tga_5K")(wrong)
+
+
+def test_numbers_that_are_not_finite_have_no_likelihood_and_no_residuals(
+    study: pf.Study, data: pf.Curves
+) -> None:
+    likelihood = pf.log_likelihood(study, data, signals="tga_5K")
+    assert likelihood([605.0, np.nan]) == -np.inf
+    table = [[605.0, 190.0], [np.nan, 190.0], [605.0, -np.inf]]
+    assert np.isfinite(likelihood(table)).tolist() == [True, False, False]
+    with pytest.raises(StudyError, match="a number is not finite"):
+        pf.residuals(study, data, signals="tga_5K")([605.0, np.nan])
+
+
+def test_function_is_shown_by_its_parameters_and_limits(study: pf.Study, data: pf.Curves) -> None:
+    shown = "study 'smoke'\n  T_p: 560 to 660 K\n  E_p: 100 to 300 kJ/mol"
+    assert repr(pf.residuals(study, data, signals="tga_5K")) == f"residuals of {shown}"
+    assert repr(pf.log_likelihood(study, data, signals="tga_5K")) == f"log-likelihood of {shown}"

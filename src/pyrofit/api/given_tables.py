@@ -1,5 +1,7 @@
 """Series in memory as tables: those that a caller gives as tables, arrays or tuples of columns."""
 
+import re
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -7,6 +9,29 @@ import pandas as pd
 
 from pyrofit.errors import DataError
 from pyrofit.quantities.base import Quantity
+
+_LINE = re.compile(r"\bline (\d+)\b")
+
+
+def named(text: str, labels: Mapping[str, str]) -> str:
+    """Return a message that names series in memory instead of the files they were written to.
+
+    Lines of such a file, below its header, become indices from 0.
+
+    >>> print(named("x/a.csv, line 12: given 'x'", {"x/a.csv": "data of a"}))
+    data of a, index 10: given 'x'
+    """
+    lines = text.splitlines()
+    for i, line in enumerate(lines):
+        for path, label in labels.items():
+            if path in line:
+                lines[i] = line = indexed(line.replace(path, label))
+    return "\n".join(lines)
+
+
+def indexed(text: str) -> str:
+    """Return a message on a series in memory, with indices instead of lines of a file."""
+    return _LINE.sub(lambda line: f"index {int(line[1]) - 2}", text)
 
 
 def as_table(given: Any, quantity: Quantity, label: str) -> pd.DataFrame:

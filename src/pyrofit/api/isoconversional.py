@@ -57,6 +57,8 @@ class Isoconversional:
         """Return the table and the warnings."""
         return "\n".join([self.table.round(2).to_string(index=False), *self.warnings])
 
+    __repr__ = __str__
+
 
 def isoconversional(
     study: Source | Mapping[str, Any],

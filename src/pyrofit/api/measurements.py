@@ -10,7 +10,7 @@ import pandas as pd
 
 from pyrofit.api.choices import Key, Signals, key_of, signals_of
 from pyrofit.api.curves import MEASURED, Curves, with_units
-from pyrofit.api.given_tables import as_table
+from pyrofit.api.given_tables import as_table, indexed, named
 from pyrofit.api.studies import Source, read_study
 from pyrofit.config import Study
 from pyrofit.errors import DataError
@@ -175,13 +175,11 @@ def _read(study: Study, labels: Mapping[str, str]) -> dict[Key, pd.DataFrame]:
     try:
         found = {}
         for key, (frame, about) in read_all(study).items():
-            frame.attrs["notes"] = about.notes
+            in_memory = study.experiments[key[0]].signals[key[1]].file in labels
+            frame.attrs["notes"] = [indexed(n) if in_memory else n for n in about.notes]
             found[key] = frame
     except DataError as error:
-        text = str(error)
-        for path, label in labels.items():
-            text = text.replace(path, label)
-        raise DataError(text) from None
+        raise DataError(named(str(error), labels)) from None
     lacking = {
         name
         for name, experiment in study.experiments.items()

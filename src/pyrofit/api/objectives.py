@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -34,6 +34,8 @@ class Objective:
 
     study: Study
     likelihood: Likelihood
+    words: ClassVar[str] = "function"
+    """What it returns."""
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -45,6 +47,13 @@ class Objective:
         """Lower and upper limits in the units of the study, shape (parameters, 2)."""
         problem = self.likelihood.problem
         return np.column_stack([problem.lower, problem.upper]) / self._factors[:, None]
+
+    def __repr__(self) -> str:
+        """Return what it is a function of, for display."""
+        units = (self.study.parameters[name].unit for name in self.names)
+        rows = zip(self.names, self.limits, units, strict=True)
+        lines = [f"{name}: {low:g} to {high:g} {unit}" for name, (low, high), unit in rows]
+        return "\n  ".join([f"{self.words} of study '{self.study.name}'", *lines])
 
     @property
     def _factors(self) -> FloatArray:
@@ -70,8 +79,6 @@ class Objective:
                 f"values: the shape is {np.shape(given)}; give {len(self.names)} numbers a set: "
                 f"{', '.join(self.names)}"
             )
-        if not np.isfinite(X).all():
-            raise StudyError("values: a number is not finite; give finite numbers")
         problem = self.likelihood.problem
         return np.asarray((X * self._factors - problem.lower) / problem.span)
 
@@ -79,14 +86,21 @@ class Objective:
 class Residuals(Objective):
     """Whitened residuals as a function, see `pyrofit.residuals`."""
 
+    words = "residuals"
+
     def __call__(self, values: Any) -> FloatArray:
         """Return the residuals of a vector, shape (points + known,), or of each row of a table."""
-        found = np.array(self.likelihood.residuals_all(self._scaled(values)))
+        X = self._scaled(values)
+        if not np.isfinite(X).all():
+            raise StudyError("values: a number is not finite; give finite numbers")
+        found = np.array(self.likelihood.residuals_all(X))
         return found if np.ndim(values) == 2 else found[0]
 
 
 class LogLikelihood(Objective):
     """Log-likelihood as a function, see `pyrofit.log_likelihood`."""
+
+    words = "log-likelihood"
 
     def __call__(self, values: Any) -> Any:
         """Return the log-likelihood of a vector, a float, or of each row of a table."""
@@ -155,10 +169,10 @@ def log_likelihood(
 ) -> LogLikelihood:
     """Return the log-likelihood of a study as a function, for samplers.
 
-    It is ``-|r|^2 / 2`` with the residuals r of `residuals`, up to a constant, and -inf outside the
-    limits and where a run does not finish. Parameters and errors are those of `residuals`. Where
-    the model misses the tests, it is no measure of the uncertainty: `fit` then takes plain least
-    squares, with intervals that include the misfit.
+    It is ``-|r|^2 / 2`` with the residuals r of `residuals`, up to a constant. It is -inf outside
+    the limits, for numbers that are not finite, and where a run does not finish. Parameters and
+    other errors are those of `residuals`. Where the model misses the tests, it is no measure of the
+    uncertainty: `fit` then takes plain least squares, with intervals that include the misfit.
 
     Returns
     -------
