@@ -2,7 +2,7 @@
 
 import pytest
 
-from pyrofit.diagnose.search.progress import Progress
+from pyrofit.diagnose.search.progress import ROUGHLY, SECOND, TO_THE_END, Progress, Whole
 from pyrofit.stages.progress import Told
 
 
@@ -25,13 +25,31 @@ def test_searches_side_by_side_share_a_line_with_the_time_left(
     assert lines[-1].endswith("generation 10 of 10, 1,900 model calls, lowest cost 0.1")
 
 
-def test_fits_of_a_diagnosis_are_counted_with_the_time_left() -> None:
+def test_fits_of_a_diagnosis_are_counted_with_the_time_left_of_these_and_of_all() -> None:
     now, lines = [0.0], list[str]()
-    told = Progress("one effect more", 30, lines.append, lambda: now[0])
-    for done, at in ((1, 2.0), (6, 12.0), (8, 16.0), (29, 58.0), (30, 90.0)):
+    whole = Whole(lambda: now[0])
+    now[0] = 20.0  # the fit of the base model
+    told = Progress(ROUGHLY, whole, 30, lines.append, lambda: now[0])
+    for done, at in ((1, 22.0), (6, 32.0), (8, 36.0), (29, 78.0), (30, 110.0)):
         now[0] = at
         told(done)
     assert lines == [
-        "one effect more: 6 of 30 fits, about 48 s left",
-        "one effect more: 29 of 30 fits, about 2 s left",
+        # 25 % of all with the base, and 6/30 of the next 20 %: 29 % in 32 s.
+        "one effect more, roughly: 6 of 30 fits, about 48 s left; the diagnosis: about 78 s left",
+        "one effect more, roughly: 29 of 30 fits, about 2 s left; the diagnosis: about 98 s left",
     ]
+
+
+def test_time_left_of_a_diagnosis_falls_and_is_at_least_that_of_the_part() -> None:
+    now, shares = [100.0], []
+    whole = Whole(lambda: now[0] - 100.0)
+    now[0] = 200.0
+    for part in (ROUGHLY, SECOND, TO_THE_END) * 2:
+        whole.begin(part)
+        shares += [whole.left(part, share) for share in (0.0, 0.5, 1.0)]
+    assert shares == sorted(shares, reverse=True)
+    lines: list[str] = []
+    told = Progress(TO_THE_END, whole, 10, lines.append, lambda: now[0])
+    now[0] = 800.0
+    told(1)
+    assert lines[0].endswith("about 90 min left; the diagnosis: about 90 min left")

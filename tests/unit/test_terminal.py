@@ -78,7 +78,7 @@ def test_steps_are_told_at_start_and_end_with_their_time_and_the_work_left() -> 
     assert run.lines == [
         "2 steps",
         "1/2  Kinetics",
-        "1/2  done in 30 s; 48 %",
+        "1/2  done in 30 s; 50 %",
         "2/2  Report",
         "2/2  done in 4 s",
     ]

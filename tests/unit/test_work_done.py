@@ -64,6 +64,64 @@ def test_no_time_is_given_where_cores_are_unknown() -> None:
     assert run.lines == [f"work: [{'#' * 10}{'.' * 10}] 50 %"]
 
 
+SEARCHES = {"imp_A": 12_000.0, "optimise": 8_000.0, "descent": 700.0}
+SHORT = {"collect": 5.0, "descent": 6.0, "predict": 6.0, "report": 8.0}
+SHORT |= {f"show_{n}": 7.0 for n in range(8)}
+RECORDED = {
+    "one rate": {"prepare": 6.0, "preview": 56.0, "kinetics": 16.0, "identify_kinetics": 94.0}
+    | {"imp_A": 16.5, "optimise": 8.4, "identify": 44.0, "compare": 6.0},
+    "three rates": {"prepare": 8.0, "preview": 80.0, "isoconversional": 78.0, "kinetics": 89.0}
+    | {
+        "identify_kinetics": 41.0,
+        "imp_A": 52.0,
+        "optimise": 67.0,
+        "identify": 67.0,
+        "compare": 8.0,
+    },
+    "slow searches": {"prepare": 6.0, "preview": 53.0, "isoconversional": 67.0, "kinetics": 110.0}
+    | {
+        "identify_kinetics": 26.0,
+        "imp_A": 90.0,
+        "optimise": 33.0,
+        "identify": 57.0,
+        "compare": 22.0,
+    },
+}
+"""Seconds of the steps of recorded runs, beside other work; short steps are alike."""
+
+
+@pytest.mark.parametrize("took", RECORDED.values(), ids=RECORDED)
+def test_share_rises_steadily_and_near_the_true_one(took: dict[str, float]) -> None:
+    steps = {**took, **SHORT}
+    run = Run(SEARCHES, cores=1)
+    run.log(Event.RUN_INFO, stats=dict.fromkeys(steps, 1))
+    shares = []
+    for number, (rule, seconds) in enumerate(steps.items(), start=1):
+        run.step(number, rule, seconds, total=len(steps))
+        if number < len(steps):
+            shares.append(float(run.lines[-1].split("] ")[1].split(" %")[0]) / 100.0)
+    true = [sum([*steps.values()][:n]) / sum(steps.values()) for n in range(1, len(steps))]
+    assert shares == sorted(shares)
+    assert max(abs(a - b) for a, b in zip(shares, true, strict=True)) < 0.17
+
+
+def test_time_left_counts_steps_that_others_wait_for_alone() -> None:
+    run = Run({"imp_A": 1_000.0}, cores=2)
+    run.log(Event.RUN_INFO, stats={"imp_A": 3, "identify": 1, "show_fit": 2})
+    run.step(1, "imp_A", 42.0, 6)
+    # Two of 42 s and two of 2 s side by side, and 20 s alone.
+    assert run.lines[-1].endswith("about 64 s left")
+
+
+def test_step_that_lasts_longer_than_expected_keeps_the_share_below_one() -> None:
+    run = Run({}, cores=1)
+    run.log(Event.RUN_INFO, stats={"identify": 1, "report": 1})
+    run.log(Event.JOB_INFO, jobid=1, rule_name="identify")
+    run.now += 500.0
+    run.log(Event.PROGRESS, done=0, total=2)
+    assert "] 99 %" in run.lines[-1]
+
+
 @pytest.mark.parametrize("name", ["paper", "twin", "hotplate"])
 def test_jobs_have_the_calls_of_their_searches(name: str) -> None:
     study = read_study(CONFIG / f"{name}.yaml")

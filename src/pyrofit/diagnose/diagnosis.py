@@ -21,6 +21,7 @@ from pyrofit.diagnose.judge.profiles import profiles
 from pyrofit.diagnose.judge.verdict import judge
 from pyrofit.diagnose.result import record
 from pyrofit.diagnose.search.kinetics_first import kinetics_first
+from pyrofit.diagnose.search.progress import Whole
 from pyrofit.diagnose.search.step import SearchContext, in_order
 from pyrofit.diagnose.search.stepwise import Search, search
 from pyrofit.estimate.targets import Measurements
@@ -82,7 +83,7 @@ def examine(
         A channel is too short, or no run within the limits finishes.
     """
     based = partial(_based, measurements, tell, processes, draw, journal)
-    found, rng, solver = _searched(study, based, tell, processes)
+    found, rng, solver = _searched(study, based, tell, processes, Whole())
     searched = found.end
     verdict = judge(found, rng, processes)
     found = verdict.search
@@ -106,24 +107,28 @@ def diagnose(study: Study, measurements: Measurements) -> Record:
 
 
 def _searched(
-    study: Study, based: Based, tell: Tell, processes: int
+    study: Study, based: Based, tell: Tell, processes: int, whole: Whole
 ) -> tuple[Search, np.random.Generator, OfSolver]:
     """Return the search, the generator of its draws, and how accurate its runs are.
 
     Runs are coarser than the study asks for, unless the difference counts against the noise.
     """
+
+    def context(setup: Setup, rng: np.random.Generator) -> SearchContext:
+        return SearchContext(rng, tell, processes, setup.other_starts, whole=whole)
+
     rough = study.model_copy(update={"accuracy": study.accuracy.coarsened()})
     setup, rng = based(rough)
     error = solver_error(setup.base, study.accuracy)
     tolerated = tolerated_error(setup.base)
     if error <= tolerated:
-        found = _search(rough, setup, rng, tell, processes)
+        found = _search(rough, setup, context(setup, rng))
         error = max(error, solver_error(found.end, study.accuracy))
         if error <= tolerated:
             return found, rng, OfSolver(coarsened=True, error_chi2=error)
     tell(f"once more with finer runs, which change chi-square by {error:.2g}")
     setup, rng = based(study)
-    found = _search(study, setup, rng, tell, processes)
+    found = _search(study, setup, context(setup, rng))
     return found, rng, OfSolver(coarsened=False, error_chi2=0.0)
 
 
@@ -150,10 +155,7 @@ def _based(
     return setup, np.random.default_rng(study.seed)
 
 
-def _search(
-    study: Study, setup: Setup, rng: np.random.Generator, tell: Tell, processes: int
-) -> Search:
-    context = SearchContext(rng, tell, processes, setup.other_starts)
+def _search(study: Study, setup: Setup, context: SearchContext) -> Search:
     return search(setup.base, setup.candidates, study.diagnosis.most_effects, context)
 
 

@@ -18,7 +18,7 @@ from snakemake_interface_logger_plugins.base import LogHandlerBase
 
 from pyrofit.errors import BY_RUN, INTERRUPTED
 from pyrofit.running.durations import in_words
-from pyrofit.running.work import WorkDone, event_of
+from pyrofit.running.work import TARGETS, WorkDone, event_of
 
 NAME = "pyrofit"
 """Name of the plugin: ``snakemake --logger pyrofit``."""
@@ -27,8 +27,6 @@ FOR_USER = {"for_user": True}
 SAME_COMMAND = "Correct this and run the same command again: finished parts are kept."
 MOST_TOLD = 3
 """Failed steps whose reasons are told."""
-_TARGETS = ("all", "diagnose", "fds", "fds_check")
-"""Rules that compute nothing."""
 _FOLLOWS = ("Exiting because a job execution failed",)
 """Beginnings of errors that say no more than those before."""
 _TOLD = {
@@ -98,7 +96,7 @@ class Terminal(LogHandlerBase):
 
     def plan(self, stats: Mapping[str, int]) -> None:
         """Tell how many steps there are, by the name of their rule."""
-        self._total = sum(count for rule, count in stats.items() if rule not in _TARGETS)
+        self._total = sum(count for rule, count in stats.items() if rule not in TARGETS)
         if not self.common_settings.dryrun:
             self.say(f"{self._total} step{'s' if self._total != 1 else ''}")
 

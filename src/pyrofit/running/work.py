@@ -1,25 +1,42 @@
 """The share of a run's work that is done, and the time left, after each step of the workflow.
 
 Snakemake counts steps, of which one lasts a second and another an hour. Here a step counts by its
-time: that of finished steps of its rule, or the time of its model calls. The time of a call is
-learned from finished searches.
+time: that of finished steps of its rule, or its usual time and that of its model calls. How far
+steps last longer than usual is learned from those that have ended, the time of a call from finished
+searches. The share never falls.
 """
 
 import logging
 import sys
 import time
 from collections import defaultdict
-from collections.abc import Callable, Mapping
-from statistics import median
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from pyrofit.running.durations import in_words
 
+TARGETS = ("all", "diagnose", "fds", "fds_check")
+"""Rules that compute nothing."""
 START_S = 2.0
-"""Time of a step besides its model calls [s], until `ENOUGH` steps without a search have ended."""
-ENOUGH = 3
+"""Usual time of a step besides its model calls [s]."""
+USUAL_S = {
+    **dict.fromkeys(TARGETS, 0.0),
+    "preview": 25.0,
+    "isoconversional": 25.0,
+    "kinetics": 20.0,
+    "identify_kinetics": 20.0,
+    "identify": 20.0,
+    "compare": 5.0,
+}
+"""That of analyses [s], by the name of their rule: means of four studies of measured files."""
+ALONE = ("prepare", "kinetics", "identify_kinetics", "identify", "collect", "report", "diagnosis")
+"""Rules that the others wait for, or which use all cores."""
+PRIOR_S = 10.0
+"""Finished steps of fewer seconds tell little of how long the others last."""
 CALL_S = 4e-4
 """Time of a model call [s], until the first search has ended."""
+MOST = 99.0
+"""Largest share that is told while a step is left [%]."""
 WIDTH = 20
 """Characters of the bar."""
 
@@ -56,6 +73,7 @@ class WorkDone(logging.Handler):
         self._planned: dict[str, int] = {}
         self._running: dict[int, tuple[str, float]] = {}
         self._took: dict[str, list[float]] = defaultdict(list)
+        self._shown = 0.0
 
     def emit(self, record: logging.LogRecord) -> None:
         """Note an event; print the bar where Snakemake tells its progress."""
@@ -81,51 +99,63 @@ class WorkDone(logging.Handler):
 
     def words(self) -> str:
         """Return the share of the work that is done, and the time left if it is known."""
-        text = f"{100 * self._share():.0f} %"
+        text = f"{min(100.0 * self._share(), MOST):.0f} %"
         if self._cores and self._call_s() is not None:
-            text += f", about {in_words(max(self._total() - self._done(), 0.0) / self._cores)} left"
+            text += f", about {in_words(self._left_s(self._cores))} left"
         return text
 
     def _share(self) -> float:
-        return min(self._done() / max(self._total(), 1e-9), 1.0)
+        """Return the share of the work that is done, at least that of the line before."""
+        done = self._done()
+        left = sum(seconds for _, seconds in self._left())
+        self._shown = max(self._shown, done / max(done + left, 1e-9))
+        return self._shown
 
-    def _ended(self) -> float:
-        return sum(map(sum, self._took.values()))
+    def _left_s(self, cores: int) -> float:
+        """Return the time left [s]: of steps alone, and of the others side by side."""
+        left = list(self._left())
+        alone = sum(seconds for rule, seconds in left if rule in ALONE)
+        return alone + sum(seconds for rule, seconds in left if rule not in ALONE) / cores
 
     def _done(self) -> float:
         """Return the work that is done [s]."""
-        now = self._clock()
-        return self._ended() + sum(
-            min(now - start, self._expected(rule)) for rule, start in self._running.values()
-        )
+        running = (self._clock() - start for _, start in self._running.values())
+        return sum(map(sum, self._took.values())) + sum(running)
 
-    def _total(self) -> float:
-        """Return the work of the run [s]."""
-        return self._ended() + sum(
-            (planned - len(self._took[rule])) * self._expected(rule)
-            for rule, planned in self._planned.items()
-        )
+    def _left(self) -> Iterator[tuple[str, float]]:
+        """Yield the work left of each rule [s]; one that lasts longer than expected ends soon."""
+        now = self._clock()
+        for rule, planned in self._planned.items():
+            running = [now - start for name, start in self._running.values() if name == rule]
+            expected, ended = self._expected(rule), len(self._took[rule])
+            waiting = max(planned - ended - len(running), 0)
+            yield rule, waiting * expected + sum(max(expected - t, 0.0) for t in running)
 
     def _expected(self, rule: str) -> float:
         took = self._took[rule]
         if took:
             return sum(took) / len(took)
-        return self._start_s() + self._calls.get(rule, 0.0) * (self._call_s() or CALL_S)
+        return self._usual(rule) + self._calls.get(rule, 0.0) * (self._call_s() or CALL_S)
 
-    def _start_s(self) -> float:
-        """Return the time of a step without a search [s]."""
-        short = [t for rule, took in self._took.items() if rule not in self._calls for t in took]
-        return median(short) if len(short) >= ENOUGH else START_S
+    def _usual(self, rule: str) -> float:
+        """Return the time of a step besides its model calls [s].
+
+        It is the usual one times the ratio by which finished steps without calls have lasted
+        longer.
+        """
+        ended = {name: took for name, took in self._took.items() if name not in self._calls}
+        lasted = sum(map(sum, ended.values()))
+        usual = sum(len(took) * USUAL_S.get(name, START_S) for name, took in ended.items())
+        return USUAL_S.get(rule, START_S) * (PRIOR_S + lasted) / (PRIOR_S + usual)
 
     def _call_s(self) -> float | None:
         """Return the time of a model call [s] in the searches that have ended; None without one.
 
         The shortest: the first searches may have compiled the solver as well.
         """
-        start = self._start_s()
         return min(
             (
-                max(t - start, 0.0) / self._calls[rule]
+                max(t - self._usual(rule), 0.0) / self._calls[rule]
                 for rule, took in self._took.items()
                 if self._calls.get(rule)
                 for t in took

@@ -10,7 +10,7 @@ from pyrofit.diagnose.base.adequacy import LackOfFit
 from pyrofit.diagnose.base.fitted import FittedModel, followed, polished
 from pyrofit.diagnose.base.model import strength_of
 from pyrofit.diagnose.base.prediction import Made
-from pyrofit.diagnose.search.progress import Progress
+from pyrofit.diagnose.search.progress import ROUGHLY, SECOND, TO_THE_END, Progress, Whole
 from pyrofit.diagnose.search.refit import (
     fixed_forms,
     from_best_start,
@@ -39,6 +39,8 @@ class SearchContext:
     """Other ends of the base's fits, or points of its limits: starts of leading models as well."""
     made: Made = field(default_factory=dict)
     """Fits of the predictions of models that were compared before."""
+    whole: Whole = field(default_factory=Whole)
+    """How far the whole diagnosis is."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,8 +139,8 @@ def _fitted(tried: Tried, context: SearchContext, best: float = np.inf) -> list[
     others = [starts(one.seen)[1:] for one in tries]
     found: dict[int, FittedModel] = {}
 
-    def fit(which: Sequence[int], how: Callable[[int], FittedModel], words: str) -> None:
-        told = Progress(f"one effect more, {words}", len(which), context.tell)
+    def fit(which: Sequence[int], how: Callable[[int], FittedModel], part: str) -> None:
+        told = Progress(part, context.whole, len(which), context.tell)
         ends = parallel_map(lambda k: how(which[k]).fit, len(which), context.processes, told)
         found.update((i, FittedModel(models[i], end)) for i, end in zip(which, ends, strict=True))
 
@@ -159,10 +161,10 @@ def _fitted(tried: Tried, context: SearchContext, best: float = np.inf) -> list[
     # Most effects promise nothing, and a rough fit takes few runs. Weak ones start again before the
     # choice: a minimum near the null value would hide a lower one at the usual strength.
     every = range(len(tries))
-    fit(every, first, "roughly")
+    fit(every, first, ROUGHLY)
     weak = [i for i in every if _is_weak(found[i], tries[i])]
-    fit(weak, second, "from a second start")
-    fit([i for i in every if promises(i)], to_the_end, "to the end")
+    fit(weak, second, SECOND)
+    fit([i for i in every if promises(i)], to_the_end, TO_THE_END)
     _told([found[i] for i in every], context)
     return [[found[i] for i in every if tries[i].step == k] for k in range(len(tried))]
 
