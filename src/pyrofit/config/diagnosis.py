@@ -22,8 +22,8 @@ class Diagnosis(Part):
     )
     estimate: tuple[str, ...] = Field(
         (),
-        description="parameters to estimate; none = those of imp and `known`, and those of kinetics "
-        "if a TGA is fitted or they lack values",
+        description="parameters to estimate; none = those of imp and `known`, and those of "
+        "kinetics if a TGA is fitted or they lack values",
     )
     kinetics: str = Field(
         "", description="'described', 'fitted', or one of kinetics.sets; none = as imp.kinetics"

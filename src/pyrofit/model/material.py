@@ -78,8 +78,8 @@ class Reaction(Part):
     )
     oxygen_use: NotNegative = Field(
         0.0,
-        description="slabs: oxygen used up per kg of reactant, supplied by convection at the front; "
-        "carbon to CO2: 2.67; 0 = never short [kg/kg]",
+        description="slabs: oxygen used up per kg of reactant, supplied by convection at the "
+        "front; carbon to CO2: 2.67; 0 = never short [kg/kg]",
     )
     heat_of_reaction_J_kg: Number = Field(
         0.0, description="heat of reaction per kg of reactant [J/kg], positive = endothermic"

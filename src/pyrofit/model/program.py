@@ -30,8 +30,8 @@ class Reading(Part):
 
     file: str = Field(description="file that the program writes, in the folder where it runs")
     columns: dict[str, str | int] = Field(
-        description="headers, or numbers from 1 on, of the columns `value` and `time` (usual: Time), "
-        "or `temperature` instead of `time`"
+        description="headers, or numbers from 1 on, of the columns `value` and `time` (usual: "
+        "Time), or `temperature` instead of `time`"
     )
     units: dict[str, str] = Field(
         description="unit of `value`, as in measured files, of `temperature`, and of `time` "

@@ -97,8 +97,8 @@ class Sample(Part):
     )
     density_factor: Positive = Field(
         1.0,
-        description="multiplies density and conductivity of the material's components, not of boards "
-        "and foil: a denser piece of a porous material, of the same diffusivity [-]",
+        description="multiplies density and conductivity of the material's components, not of "
+        "boards and foil: a denser piece of a porous material, of the same diffusivity [-]",
     )
     emissivity_change: Number = Field(
         0.0,
