@@ -86,3 +86,11 @@ def test_equal_repeats_are_looked_at(folder: Path) -> None:
     record(Path("a_10K_1.csv"), 10.0)
     record(Path("a_10K_2.csv"), 10.0)
     assert pf.look(folder).looked.tests[0].disagreements == []
+
+
+def test_one_curve_at_other_times_is_no_copy(folder: Path) -> None:
+    record(Path("a_10K.csv"), 10.0)
+    record(Path("b_20K.csv"), 20.0)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert len(pf.new_study("x", tga=["a_10K.csv", "b_20K.csv"]).experiments) == 2

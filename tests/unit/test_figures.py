@@ -253,11 +253,11 @@ def test_parameter_at_a_limit_without_a_profile_has_no_empty_panel(tmp_path: Pat
     study, results = fake(tmp_path)
     path = results.identification("estimate.csv")
     table = read_csv(path)
-    at_limit = table["parameter"] == "k_a"
+    at_limit = table["parameter"] == "k"
     table.loc[at_limit, "bound"] = "lower"
     profiles_path = results.identification("profiles.csv")
     curves = read_csv(profiles_path)
-    write_csv(profiles_path, curves[curves["parameter"] != "k_a"])
+    write_csv(profiles_path, curves[curves["parameter"] != "k"])
     before = len(profiles(study, results).axes)
     write_csv(path, table)
     assert len([ax for ax in profiles(study, results).axes if ax.axison]) == before - 1

@@ -188,8 +188,8 @@ def test_new_study_says_how_a_file_was_read_and_what_it_leaves_out(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     head = "Test 7\n\nTime (s);Abbrandrate (g/m2/s);HRR (kW/m2);DTG;HRR (kW/m2)\n"
-    body = rows(";", TIME_S, 1e3 * MLR, TIME_S, TIME_S, TIME_S, comma=True)
     for flux in (25, 50):
+        body = rows(";", TIME_S, 20.0 * flux * MLR, TIME_S, TIME_S, TIME_S, comma=True)
         Path(f"slab_{flux}kW.csv").write_bytes((head + body).encode("utf-16"))
     assert cli.main(["init", "x", "--gasification", "slab_25kW.csv", "slab_50kW.csv"]) == 0
     said = capsys.readouterr().out

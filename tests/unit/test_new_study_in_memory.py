@@ -96,7 +96,7 @@ def test_times_in_minutes_and_a_missing_column_are_told() -> None:
     table = pd.DataFrame({"time_s": T - T[0], "temperature_K": T, "mass_fraction": mass})
     with warnings.catch_warnings(record=True) as told:
         warnings.simplefilter("always")
-        pf.new_study("x", tga={"tga_1K": table, "tga_60K": table})
+        pf.new_study("x", tga={"tga_1K": table})
         pf.new_study("x", tga={"tga_60K": table.drop(columns="temperature_K")})
     said = [str(one.message) for one in told]
     assert any("data of tga_1K: the record shows a heating rate of 60 K/min" in one for one in said)

@@ -85,8 +85,12 @@ def test_init_prints_one_line_for_a_file(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     header = "Time (s),Mass (g),HRR (kW/m2),T back 1 (K),T back 2 (K),O2 (%)"
-    columns = SECONDS, SLAB, RATE, SECONDS + 300.0, SECONDS + 301.0, 0.0 * SECONDS + 20.9
-    files = [table(tmp_path / f"board_{q}kW.csv", header, *columns) for q in (25, 50)]
+    files = []
+    for q in (25, 50):
+        own = 1.0 + 1e-4 * q
+        columns = SLAB / own, RATE * own, SECONDS * own + 300.0, SECONDS * own + 301.0
+        path = tmp_path / f"board_{q}kW.csv"
+        files.append(table(path, header, SECONDS, *columns, 0.0 * SECONDS + 20.9))
     _, lines = init("x", {"cone": files}, tmp_path)
     for file in files:
         (line,) = [line for line in lines if line.startswith(f"{file}: ")]

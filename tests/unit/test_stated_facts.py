@@ -54,7 +54,7 @@ def test_balance_with_an_arbitrary_zero_starts_at_the_stated_mass(
     above = "Initial Mass : 10.00 mg\nUser : lab\n\n"
     header = "Time (s);Temperature (K);TG (mg)"
     path = record(tmp_path / "a.txt", above, header, TIME, KELVIN, 10.0 * MASS + zero)
-    text, (run,) = drafted("x", {"tga": [path]})
+    text, (run,), _ = drafted("x", {"tga": [path]})
     np.testing.assert_allclose(run.frames["mass_fraction"]["mass_fraction"], MASS, atol=1e-6)
     assert "sample_mass_kg: 1e-05 # of the file" in text
     with pytest.raises(DataError, match="give `sample_mass_kg: 1e-05`"):
@@ -64,7 +64,7 @@ def test_balance_with_an_arbitrary_zero_starts_at_the_stated_mass(
 def test_mass_near_the_stated_one_stays_as_it_is(tmp_path: Path) -> None:
     header = "Time (s);Temperature (K);TG (mg)"
     path = record(tmp_path / "a.txt", "Mass: 10 mg\nB: c\n", header, TIME, KELVIN, 10.4 * MASS)
-    text, (run,) = drafted("x", {"tga": [path]})
+    text, (run,), _ = drafted("x", {"tga": [path]})
     assert "sample_mass_kg" not in text
     np.testing.assert_allclose(run.frames["mass_fraction"]["mass_fraction"], MASS, atol=1e-6)
 
@@ -83,7 +83,7 @@ def test_sign_of_the_heat_flow_is_that_of_the_file(above: str, line: str, tmp_pa
     sign = -1.0 if "negative" in line else 1.0
     header = "Time (s);Temperature (K);DSC (mW/mg)"
     path = record(tmp_path / "a.txt", above, header, TIME, KELVIN, sign * flow)
-    text, (run,) = drafted("x", {"dsc": [path]})
+    text, (run,), _ = drafted("x", {"dsc": [path]})
     assert line in text
     if "CHANGE" not in line:
         assert run.frames["heat_flow"]["heat_flow_W_kg"].max() == pytest.approx(2300.0, rel=0.01)

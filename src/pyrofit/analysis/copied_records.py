@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.data.copies import Copy, columns_alike, copies
+from pyrofit.data.copies import Copy, columns_alike, copies, is_copy
 from pyrofit.data.suspect import LOOK
 from pyrofit.quantities.base import Quantity
 
@@ -24,7 +24,7 @@ def notes_on_copies(
     ]
     for found in copies(series):
         key, other = keys[found.position], keys[found.of]
-        if sources[key] != sources[other]:
+        if sources[key] != sources[other] and is_copy(found, frames[key], frames[other]):
             said = numbers_of(found, quantities[found.position], frames[key], frames[other])
             yield key, f"{LOOK}{said} {sources[other]}. Leave one of both out"
 

@@ -92,6 +92,11 @@ def _copy(i: int, j: int, y: FloatArray, other: FloatArray, end: str) -> Copy:
     return Copy(i, j, int(differ[0]) if differ.size else size, y.size, other.size, end)
 
 
+def is_copy(found: Copy, frame: pd.DataFrame, other: pd.DataFrame) -> bool:
+    """Tell whether the times of these rows are the same as well, as in a file that was copied."""
+    return _WORDS["time_s"] in columns_alike(found, frame, other)
+
+
 def columns_alike(found: Copy, frame: pd.DataFrame, other: pd.DataFrame) -> list[str]:
     """Return in words the columns besides the values that are the same over these rows."""
     rows = slice(None, found.same) if found.end == "first" else slice(-found.same, None)

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from pyrofit.analysis.copied_records import numbers_of
-from pyrofit.data.copies import copies
+from pyrofit.data.copies import copies, is_copy
 from pyrofit.new_study.draft import Measured
 from pyrofit.new_study.words import other_number
 from pyrofit.quantities import known_quantities
@@ -21,7 +21,7 @@ def without_copies(records: Sequence[Measured]) -> tuple[list[Measured], list[st
     shared: dict[tuple[str, str], dict[str, str]] = {}
     for found in copies(values):
         (run, name, frame), (other, _, theirs) = series[found.position], series[found.of]
-        if run is not other and found.most:
+        if run is not other and found.most and is_copy(found, frame, theirs):
             said = numbers_of(found, known_quantities()[name], frame, theirs)
             shared.setdefault((run.name, other.name), {}).setdefault(name, said)
     by_name = {run.name: run for run in records}
