@@ -12,7 +12,7 @@ from pyrofit.data.stated import stated_in
 from pyrofit.errors import DataError
 from pyrofit.new_study import draft
 from pyrofit.new_study.plan import part_of
-from pyrofit.new_study.words import gas_line
+from pyrofit.new_study.words import gas_line, said
 from pyrofit.new_study.write import drafted
 
 KELVIN = np.linspace(300.0, 900.0, 201)
@@ -115,6 +115,48 @@ def test_test_in_air_is_told_and_held_out_beside_others(in_name: bool, tmp_path:
     assert [gas_line(run) != "" for run in runs] == [False, True]
     assert part_of("kinetics", runs).held_out == (runs[1].name,)
     assert part_of("kinetics", runs[1:]).held_out == ()
+
+
+@pytest.mark.parametrize(
+    ("column", "values", "gas"),
+    [
+        ("O2 (%)", 20.9 + 0.0 * TIME, "O2 20.9 %"),
+        ("O2 (%)", 0.01 + 0.0 * TIME, ""),
+        ("Flow (%)", 20.9 + 0.0 * TIME, ""),
+    ],
+)
+def test_oxygen_of_a_column_is_that_of_the_gas(
+    column: str, values: np.ndarray, gas: str, tmp_path: Path
+) -> None:
+    header = f"Time (s);Temperature (K);Mass (-);{column}"
+    path = record(tmp_path / "a.txt", "", header, TIME, KELVIN, MASS, values)
+    run = draft.measured("tga", path)
+    assert run.gas == gas
+    assert (gas_line(run) != "") == bool(gas)
+
+
+@pytest.mark.parametrize("first", [6.0, 5.76])
+def test_record_that_starts_below_the_stated_mass_is_told(first: float, tmp_path: Path) -> None:
+    header = "Time (s);Temperature (K);Mass (mg)"
+    path = record(
+        tmp_path / "a.txt", "Sample Mass: 6 mg\nUser: a\n", header, TIME, KELVIN, first * MASS
+    )
+    text, (run,) = drafted("x", {"tga": [path]})
+    told = "it starts at 96.0 % of the stated initial mass, as after a drying"
+    assert (told in text) == (first < 6.0)
+    assert any(told in line for line in said(run)) == (first < 6.0)
+
+
+@pytest.mark.parametrize(
+    "line", ["Surface area (cm2): 88.4", "Specimen area;0.00884 m2", "Exposed area: 8840 mm2"]
+)
+def test_area_of_the_file_divides_its_values(line: str, tmp_path: Path) -> None:
+    path = record(tmp_path / "a.txt", f"{line}\nUser: a\n", "Time (s);HRR (kW)", TIME, 1.0 + MASS)
+    run = draft.measured("cone", path)
+    expected = 1e3 * (1.0 + MASS) / 0.00884
+    frame = run.frames["heat_release_rate"]
+    np.testing.assert_allclose(frame["heat_release_rate_W_m2"], expected, rtol=1e-5)
+    assert "sample_area_m2: 0.00884 # of the file" in drafted("x", {"cone": [path]})[0]
 
 
 def test_facts_are_not_taken_from_other_words() -> None:

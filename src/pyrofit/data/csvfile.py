@@ -129,7 +129,8 @@ def read_table(path: Path) -> Table:
     stated = stated_in(cells)
     if stated.exothermic_up is None:
         stated = replace(stated, exothermic_up=exothermic_up(table.columns))
-    return replace(table, stated=stated)
+    area = stated.area_m2 if table.area_m2 is None else table.area_m2
+    return replace(table, stated=stated, area_m2=area)
 
 
 def _read(path: Path, notes: list[str]) -> tuple[Table, list[str]]:

@@ -44,6 +44,10 @@ _GAS = re.compile(
     ),
     re.IGNORECASE,
 )
+_AREA = re.compile(
+    r"(?:(?:exposed|sample|specimen|surface|test)\s*)*area|(?:proben?|ober)fl.che|surface\s+expos.e",
+    re.IGNORECASE,
+)
 _EXO = re.compile(r"exo(?:therm(?:ic|al)?)?", re.IGNORECASE)
 _UPWARD = re.compile(
     r"(?<![a-z])(exo|endo)(?:therm(?:ic|al)?)?[\s_-]*(up|down)(?![a-z])", re.IGNORECASE
@@ -69,6 +73,8 @@ class Stated:
         A gas with oxygen to which the first gas is changed in the run; nothing where it is not.
     then_gas_s
         Time of that change [s], where the steps of the run tell it.
+    area_m2
+        Exposed area of the sample [m2].
     """
 
     mass_kg: float | None = None
@@ -77,6 +83,7 @@ class Stated:
     flux_kW_m2: float | None = None
     then_gas: str = ""
     then_gas_s: float | None = None
+    area_m2: float | None = None
 
     @property
     def in_oxygen(self) -> bool:
@@ -90,7 +97,7 @@ def stated_in(lines: Sequence[Sequence[str]]) -> Stated:
     A fact stands as key and value in one line, or as a key above its value.
 
     >>> stated_in([["#SAMPLE MASS /mg:", "5.000"], ["#EXO:", "+1"], ["Purge Gas", "air"]])
-    Stated(mass_kg=5e-06, exothermic_up=True, gas='air', flux_kW_m2=None, then_gas='', then_gas_s=None)
+    Stated(mass_kg=5e-06, exothermic_up=True, gas='air', flux_kW_m2=None, then_gas='', then_gas_s=None, area_m2=None)
     >>> stated_in([["Flux (kW/m2)", "tig (s)"], ["25", "85"]]).flux_kW_m2
     25.0
     """  # noqa: E501
@@ -100,6 +107,7 @@ def stated_in(lines: Sequence[Sequence[str]]) -> Stated:
     rows = [_split(row) for row in rows]
     masses: set[float] = set()
     fluxes: set[float] = set()
+    areas: set[float] = set()
     signs: set[bool] = set()
     gases: dict[str, None] = {}
     for i, row in enumerate(rows):
@@ -110,6 +118,8 @@ def stated_in(lines: Sequence[Sequence[str]]) -> Stated:
                 masses |= _number(value, unit or behind, "mass")
             elif _FLUX.fullmatch(key):
                 fluxes |= _number(value, unit or behind, "heat flux")
+            elif _AREA.fullmatch(key):
+                areas |= _number(value, unit or behind, "area")
             elif _GAS.fullmatch(key) and (OXYGEN.search(value) or INERT.search(value)):
                 gases[value.strip()] = None
             if (up := _exothermic_up(cell, value)) is not None:
@@ -117,6 +127,8 @@ def stated_in(lines: Sequence[Sequence[str]]) -> Stated:
     found = Stated()
     if len(masses) == 1:
         found = replace(found, mass_kg=masses.pop())
+    if len(areas) == 1:
+        found = replace(found, area_m2=areas.pop())
     if len(signs) == 1:
         found = replace(found, exothermic_up=signs.pop())
     if len(fluxes) == 1:

@@ -64,6 +64,8 @@ class Found:
     dried_to
         Mass fraction at which a record starts after a drying; None where it starts at the initial
         mass.
+    begins_at
+        The first mass over the initial mass that the file states, where it is below.
     """
 
     signal: str
@@ -78,6 +80,7 @@ class Found:
     stated: Stated = field(default_factory=Stated)
     tared: bool = False
     dried_to: float | None = None
+    begins_at: float | None = None
 
     @property
     def of(self) -> Quantity:
@@ -269,6 +272,7 @@ def _found(table: Table, signal: str, quantity: Quantity, headers: Mapping[str, 
         table.stated,
         _is_tared(table, columns.get("value", ""), units.get("value", ""), scale),
         _dried_to(table, columns.get("value", ""), units.get("value", ""), quantity),
+        _begins_at(table, columns.get("value", ""), units.get("value", ""), scale),
     )
 
 
@@ -291,3 +295,13 @@ def _is_tared(table: Table, header: str, unit: str, scale: str) -> bool:
         return False
     first = float(table.columns[header][0]) * masses[unit_key(unit)]
     return abs(first - stated) > OTHER_ZERO * stated
+
+
+def _begins_at(table: Table, header: str, unit: str, scale: str) -> float | None:
+    """Return the first mass over the stated initial mass, where it is a little below."""
+    stated = table.stated.mass_kg
+    if scale != "mass" or stated is None or _is_tared(table, header, unit, scale):
+        return None
+    factor = {unit_key(word): factor for word, factor in SCALES["mass"].items()}[unit_key(unit)]
+    first = float(np.nanmedian(table.columns[header][:_SMOOTHED])) * factor / stated
+    return round(first, 4) if first <= FALLEN else None

@@ -14,7 +14,7 @@ from pyrofit.data.csvfile import Table, read_table
 from pyrofit.data.gas_steps import holds_oxygen
 from pyrofit.data.heating import End, end_of_heating
 from pyrofit.errors import StudyError
-from pyrofit.experiments import KINDS, files_of
+from pyrofit.experiments import KINDS, files_of, measurable
 from pyrofit.experiments.base import Kind
 from pyrofit.experiments.from_files import Told
 from pyrofit.new_study.columns import Found, recognise
@@ -27,6 +27,8 @@ CHAR = 0.1
 """Residue above which a solid chars."""
 MOIST = 0.01
 """Loss of mass up to 420 K above which a sample is moist."""
+_OXYGEN_PERCENT = 0.5
+"""Oxygen above which a gas is no nitrogen with traces."""
 NEAR_K = 5.0
 """Distance [K] from the temperature of a hold within which a number in a name means that."""
 _PARTS = (-120.0, 20.0), (-100.0, 20.0), (-140.0, 120.0)
@@ -210,7 +212,7 @@ def measured(kind: str, path: Path) -> Measured:
         lacks=lacks,
         end=end,
         then_gas=table.stated.then_gas if end is None else "",
-        gas=table.stated.gas or gas_of(path.stem),
+        gas=table.stated.gas or gas_of(path.stem) or _gas_of_columns(kind, table),
     )
 
 
@@ -231,6 +233,23 @@ def gas_of(name: str) -> str:
         re.I,
     )
     return match[1] if match else ""
+
+
+def _gas_of_columns(kind: str, table: Table) -> str:
+    """Return the gas with oxygen that a column of a TGA or DSC tells; nothing where none does.
+
+    In the combustor of a microscale calorimeter it is not that around the sample.
+    """
+    if "mass_fraction" not in measurable(kind) and "heat_flow" not in measurable(kind):
+        return ""
+    for name, (_, text) in table.faults.items():
+        if re.fullmatch(r"(purge|sample)?\W*gas|atmosphere|gaz", name, re.I) and holds_oxygen(text):
+            return text
+    for name, values in table.columns.items():
+        percent = float(np.nan_to_num(values).mean()) if table.units[name] == "%" else 0.0
+        if re.fullmatch(r"o_?2|oxygen", name.strip(), re.I) and percent > _OXYGEN_PERCENT:
+            return f"O2 {percent:.3g} %"
+    return ""
 
 
 def _end_of_heating(frames: Mapping[str, pd.DataFrame], table: Table) -> End | None:

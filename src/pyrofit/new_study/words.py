@@ -65,6 +65,8 @@ def _signal(run: Measured, found: Found) -> list[str]:
             f"  relative_to: first value # CHANGE: it starts at {100.0 * found.dried_to:.1f} %, as",
             "  # after a drying; delete this line if the sample lost that mass by pyrolysis",
         ]
+    if (begins := _begins(found)) != "":
+        lines.append(f"  # CHANGE where wrong: {begins}")
     if (gas := gas_line(run)) != "":
         lines.append(f"  # {gas}")
     if run.end is not None:
@@ -78,6 +80,16 @@ def _signal(run: Measured, found: Found) -> list[str]:
     if "uncertainty" not in found.columns:
         lines.append("  # uncertainty: ... # in SI units, if you know it: the file has none")
     return lines
+
+
+def _begins(found: Found) -> str:
+    """Say that a record starts below the initial mass that its file states."""
+    if found.begins_at is None or found.of.scales[0] != "fraction":
+        return ""
+    return (
+        f"it starts at {100.0 * found.begins_at:.1f} % of the stated initial mass, as after a "
+        "drying, and is divided by its start; `sample_mass_kg` counts the loss before"
+    )
 
 
 def assumes_area(run: Measured) -> bool:
@@ -96,6 +108,7 @@ def said(run: Measured) -> list[str]:
     lines = ["; ".join([*read, *run.mended]), *other_number(run)]
     remarks = ((found.signal, _remark(run, found)) for found in run.signals)
     lines += [f"{signal}: {remark}" for signal, remark in remarks if remark]
+    lines += [line for found in run.signals if (line := _begins(found)) != ""]
     if (gas := gas_line(run)) != "":
         lines.append(gas)
     if run.end is not None:

@@ -13,6 +13,7 @@ SCALES: dict[str, dict[str, float]] = {
         "°F": 5.0 / 9.0,
     },
     "length": {"m": 1.0, "cm": 1e-2, "mm": 1e-3},
+    "area": {"m2": 1.0, "cm2": 1e-4, "mm2": 1e-6},
     "mass per area": {"kg/m2": 1.0, "g/m2": 1e-3, "g/cm2": 10.0, "mg/cm2": 1e-2},
     "mass": {"kg": 1.0, "g": 1e-3, "mg": 1e-6, "ug": 1e-9, "µg": 1e-9},
     "mass flux": {
