@@ -236,11 +236,12 @@ def gas_of(name: str) -> str:
 
 
 def _gas_of_columns(kind: str, table: Table) -> str:
-    """Return the gas with oxygen that a column of a TGA or DSC tells; nothing where none does.
+    """Return the gas with oxygen that a column of a heated sample tells; nothing where none does.
 
     In the combustor of a microscale calorimeter it is not that around the sample.
     """
-    if "mass_fraction" not in measurable(kind) and "heat_flow" not in measurable(kind):
+    of_sample = any(q.has_sign or "mass" in q.scales for q in measurable(kind).values())
+    if KINDS[kind].stage != "kinetics" or not of_sample:
         return ""
     for name, (_, text) in table.faults.items():
         if re.fullmatch(r"(purge|sample)?\W*gas|atmosphere|gaz", name, re.I) and holds_oxygen(text):
