@@ -18,7 +18,7 @@ from pyrofit.archive_software import LOCK, VERSIONS, is_project, software
 from pyrofit.archive_texts import AGAIN, AGAIN_LOCKED, COMMENT, MACFP_FILES, README
 from pyrofit.archive_zip import Entries, zipped
 from pyrofit.config import Study, as_yaml, digest
-from pyrofit.config.programs import program_files
+from pyrofit.config.expand.programs import program_files
 from pyrofit.errors import DataError
 from pyrofit.model.signal import Signal
 from pyrofit.plugins import folder_names, plugin_files

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from pyrofit.config import Study, as_study, read_mapping
-from pyrofit.config.study import is_own
+from pyrofit.config.keys.study import is_own
 from pyrofit.effects.apply import with_shared
 from pyrofit.errors import StudyError, suggest
 from pyrofit.model.slab import SlabExperiment

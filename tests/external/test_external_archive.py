@@ -12,7 +12,7 @@ from decay import study, write
 
 from pyrofit.archive import write_archive
 from pyrofit.config import Study, digest, read_study
-from pyrofit.config.programs import externals, keeping_runs
+from pyrofit.config.expand.programs import externals, keeping_runs
 from pyrofit.external.runs import outcomes
 from pyrofit.provenance import STUDY, source_fingerprint
 from pyrofit.quantities import known_quantities

@@ -15,7 +15,7 @@ import yaml
 from decay import fake_fds, study, write
 
 from pyrofit.config import Study, as_study
-from pyrofit.config.programs import externals, keeping_runs
+from pyrofit.config.expand.programs import externals, keeping_runs
 from pyrofit.errors import ProgramError, StudyError
 from pyrofit.estimate.problem import FAILED_COST, Problem, make_problem
 from pyrofit.external import scratch as scratch_module
@@ -302,7 +302,7 @@ def test_an_interruption_ends_all_runs_at_once_and_keeps_no_failure(tmp_path: Pa
     script = (
         f"import sys; sys.path.insert(0, {str(Path(__file__).parent)!r})\n"
         "from pathlib import Path; from pyrofit.config import read_study\n"
-        "from pyrofit.config.programs import externals, keeping_runs\n"
+        "from pyrofit.config.expand.programs import externals, keeping_runs\n"
         "from pyrofit.external.runs import outcomes\n"
         "from pyrofit.quantities import known_quantities\n"
         "found = keeping_runs(read_study(Path('mine/study.yaml')), Path('programs'))\n"

@@ -9,7 +9,7 @@ import pytest
 from decay import READS, TEMPLATE, study, write
 
 from pyrofit.config import as_study
-from pyrofit.config.programs import externals
+from pyrofit.config.expand.programs import externals
 from pyrofit.errors import StudyError
 from pyrofit.experiments.external.simulate import mean
 from pyrofit.external.filled import filled, placeholder_values

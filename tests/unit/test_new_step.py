@@ -21,7 +21,7 @@ import pyrofit.steps
 pyrofit.steps.__path__.append(sys.argv[1])
 from pyrofit.cli import main
 from pyrofit.config import digest, read_study
-from pyrofit.config.steps import with_options
+from pyrofit.config.keys.steps import with_options
 from pyrofit.results.step import inputs_of, slice_of
 from pyrofit.running.targets import targets
 codes = [main(["peaks", "study.yaml", *more]) for more in ([], ["--share", "0.8"])]

@@ -8,7 +8,7 @@ import pytest
 import yaml
 
 from pyrofit.config import as_study, read_study
-from pyrofit.config.samples import with_samples
+from pyrofit.config.expand.samples import with_samples
 from pyrofit.new_study.marks import marked_lines
 from pyrofit.new_study.write import init
 from pyrofit.stages.reading import check_measurements

@@ -13,7 +13,7 @@ from test_stages import given
 
 from pyrofit.cli import main
 from pyrofit.config import Study, as_study
-from pyrofit.config.steps import with_options
+from pyrofit.config.keys.steps import with_options
 from pyrofit.errors import DataError
 from pyrofit.results.files import Results, read_csv, write_csv
 from pyrofit.stages import measurements

@@ -99,7 +99,7 @@ def test_step_reads_what_the_workflow_knows(name: str) -> None:
 @pytest.mark.parametrize("name", STEPS)
 def test_no_list_names_a_step(name: str) -> None:
     lists = ("workflow/study.smk", "cli/command.py", "cli/stepping.py", "provenance.py")
-    for file in (*lists, "show/report.py", "results/files.py", "config/steps.py"):
+    for file in (*lists, "show/report.py", "results/files.py", "config/keys/steps.py"):
         text = (SOURCE / file).read_text(encoding="utf-8")
         assert not re.search(rf"\b{name}\b", text), file
     assert not (SOURCE / f"workflow/rules/{name}.smk").exists()

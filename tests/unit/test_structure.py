@@ -232,8 +232,17 @@ def test_no_effect_is_known_by_name_outside_its_file() -> None:
 
 
 def test_config_knows_no_solver() -> None:
-    for path in (SOURCE / "config").glob("*.py"):
+    for path in (SOURCE / "config").rglob("*.py"):
         assert not own(path) & {"solver", "simulate", "estimate"}, path.name
+
+
+def test_floors_of_config_import_downwards() -> None:
+    floors = ("keys", "expand", "check")
+    for rank, floor in enumerate(floors):
+        for path in (SOURCE / "config" / floor).glob("*.py"):
+            above = (f"pyrofit.config.{other}" for other in (*floors[rank + 1 :], "read"))
+            text = path.read_text()
+            assert not [name for name in above if name in text], path
 
 
 def test_no_quantity_is_known_by_name_outside_its_home() -> None:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from pyrofit.config import Study, as_study, read_mapping
-from pyrofit.config.unmeasured import unmeasured
+from pyrofit.config.check.unmeasured import unmeasured
 from pyrofit.errors import StudyError
 from pyrofit.experiments import kind_of
 from pyrofit.solver.curves import Request

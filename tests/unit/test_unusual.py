@@ -9,7 +9,7 @@ import pytest
 import yaml
 
 from pyrofit.config import as_study, read_mapping
-from pyrofit.config.unusual import COUNTS, USUAL, unusual
+from pyrofit.config.check.unusual import COUNTS, USUAL, unusual
 from pyrofit.errors import StudyError
 
 ROOT = Path(__file__).parents[2]

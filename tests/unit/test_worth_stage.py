@@ -14,7 +14,7 @@ from test_sensitivity_stage import described
 from pyrofit.analysis import data_worth
 from pyrofit.cli import main
 from pyrofit.config import Study, as_study
-from pyrofit.config.steps import with_options
+from pyrofit.config.keys.steps import with_options
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.errors import DataError
 from pyrofit.estimate.posterior import curvature

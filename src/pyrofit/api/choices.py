@@ -10,7 +10,7 @@ import pandas as pd
 
 from pyrofit.api.arguments import word_of
 from pyrofit.config import Study, parameters_in
-from pyrofit.config.numbers import described
+from pyrofit.config.check.numbers import described
 from pyrofit.config.resolve import diagnosed_material
 from pyrofit.config.uses import parameters_of_heated
 from pyrofit.errors import StudyError, suggest

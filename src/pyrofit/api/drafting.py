@@ -14,7 +14,7 @@ import pandas as pd
 from pyrofit.api.arguments import word_of
 from pyrofit.api.given_tables import as_table, named
 from pyrofit.config import Study, as_study
-from pyrofit.config.study import IN_MEMORY
+from pyrofit.config.keys.study import IN_MEMORY
 from pyrofit.config.yaml_file import read_mapping
 from pyrofit.errors import DataError, StudyError, suggest
 from pyrofit.experiments import OF_FILES, files_of, measurable

@@ -6,8 +6,8 @@ from pathlib import Path
 from pyrofit.api.arguments import path_of
 from pyrofit.api.studies import Source, read_study
 from pyrofit.config import as_yaml
-from pyrofit.config.programs import externals
-from pyrofit.config.study import is_own
+from pyrofit.config.expand.programs import externals
+from pyrofit.config.keys.study import is_own
 from pyrofit.errors import StudyError
 from pyrofit.results.files import write_text
 from pyrofit.stages.own_files import seen_from

@@ -8,7 +8,7 @@ from typing import Any
 
 from pyrofit import config
 from pyrofit.config import Study, as_study
-from pyrofit.config.unusual import unusual
+from pyrofit.config.check.unusual import unusual
 from pyrofit.config.yaml_file import read_mapping
 from pyrofit.errors import StudyError
 

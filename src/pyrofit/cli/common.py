@@ -71,7 +71,7 @@ def open_study(
     run of the study may start.
     """
     from pyrofit.config import digest, read_study
-    from pyrofit.config.programs import externals, keeping_runs
+    from pyrofit.config.expand.programs import externals, keeping_runs
     from pyrofit.external.scratch import sweep
     from pyrofit.results.files import Results
     from pyrofit.running.lock import job

@@ -155,8 +155,8 @@ _PAGES = {
 def _check(given: argparse.Namespace) -> None:
     from pyrofit.analysis.differing_repeats import DIFFERS
     from pyrofit.config import read_study
-    from pyrofit.config.programs import externals
-    from pyrofit.config.unusual import unusual
+    from pyrofit.config.check.unusual import unusual
+    from pyrofit.config.expand.programs import externals
     from pyrofit.data.suspect import LOOK
     from pyrofit.external.filled import executable_of
     from pyrofit.new_study.marks import MARK, marked_lines

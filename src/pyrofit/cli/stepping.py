@@ -123,7 +123,7 @@ def _with_options(study: "Study", step: Step, given: argparse.Namespace) -> "Stu
     """Return a study with the options of the command line."""
     from pydantic import ValidationError
 
-    from pyrofit.config.steps import with_options
+    from pyrofit.config.keys.steps import with_options
     from pyrofit.config.words import in_plain_words
 
     options = {

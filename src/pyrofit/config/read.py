@@ -8,16 +8,17 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from pyrofit.config.checks import check_study
-from pyrofit.config.derived import hold_fixed, with_expressions
-from pyrofit.config.diagnosis_checks import check_diagnosis
-from pyrofit.config.effects import apply_effects
-from pyrofit.config.known_checks import check_known
-from pyrofit.config.programs import with_programs
-from pyrofit.config.repeats import expand_repeats
-from pyrofit.config.samples import with_samples
-from pyrofit.config.study import Study, is_own
-from pyrofit.config.tables import with_tables
+from pyrofit.config.check.diagnosis import check_diagnosis
+from pyrofit.config.check.known import check_known
+from pyrofit.config.check.programs import check_programs
+from pyrofit.config.check.study import check_study
+from pyrofit.config.expand.derived import hold_fixed, with_expressions
+from pyrofit.config.expand.effects import apply_effects
+from pyrofit.config.expand.programs import with_programs, with_units
+from pyrofit.config.expand.repeats import expand_repeats
+from pyrofit.config.expand.samples import with_samples
+from pyrofit.config.expand.tables import with_tables
+from pyrofit.config.keys.study import Study, is_own
 from pyrofit.config.words import in_plain_words, refuse_booleans
 from pyrofit.config.yaml_file import read_mapping
 from pyrofit.errors import StudyError
@@ -45,7 +46,8 @@ def as_study(given: Mapping[str, Any], source: str, located: bool = False) -> St
         given = hold_fixed(expand_repeats(with_samples(given)))
         given = with_tables(given, folder or Path())
         study = with_programs(Study.model_validate(apply_effects(given)), folder)
-        study = with_expressions(study)
+        check_programs(study)
+        study = with_expressions(with_units(study))
         check_study(study)
         check_diagnosis(study)
         check_known(study)

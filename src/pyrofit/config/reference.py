@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin
 from annotated_types import Ge, Gt, Le, Lt, MinLen
 from pydantic.fields import FieldInfo
 
-from pyrofit.config.study import Study
+from pyrofit.config.keys.study import Study
 from pyrofit.model.base import ANY, Part, Rule
 from pyrofit.model.parameters import UNITS
 

@@ -2,9 +2,9 @@
 
 from collections.abc import Mapping
 
-from pyrofit.config.stages import Kinetics
-from pyrofit.config.study import Study
-from pyrofit.config.terms import TermSpec
+from pyrofit.config.keys.stages import Kinetics
+from pyrofit.config.keys.study import Study
+from pyrofit.config.keys.terms import TermSpec
 from pyrofit.config.uses import parameters_in
 from pyrofit.effects import known_effects
 from pyrofit.effects.apply import own_laboratories, with_effects

@@ -1,10 +1,16 @@
-"""Messages of YAML and pydantic in plain words."""
+"""Rules that fail with their place, and messages of YAML and pydantic in plain words."""
 
 import re
 from collections.abc import Mapping
 from typing import Any
 
 from pydantic import ValidationError
+
+
+def require(ok: bool, place: str, message: str) -> None:
+    """Raise ValueError with the place unless something holds."""
+    if not ok:
+        raise ValueError(f"{place}: {message}")
 
 
 def refuse_booleans(given: Any, place: str = "") -> None:

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from pyrofit.config import Study
-from pyrofit.config.stages import Imp, Kinetics
+from pyrofit.config.keys.stages import Imp, Kinetics
 from pyrofit.estimate.optimisers import OPTIMISERS
 
 CALLS_PER_ROW = 1.63

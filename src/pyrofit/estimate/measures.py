@@ -7,7 +7,7 @@ from inspect import Parameter, signature
 import numpy as np
 
 from pyrofit.config import Study, TermSpec
-from pyrofit.config.terms import channels_of
+from pyrofit.config.keys.terms import channels_of
 from pyrofit.cost import Target, known_costs
 from pyrofit.errors import CostError, StudyError, suggest
 from pyrofit.estimate.targets import Measurements, target_for, term_for

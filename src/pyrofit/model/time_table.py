@@ -36,7 +36,7 @@ class TimeTable(Part):
 
 OverTime = Number | TimeTable
 """A number, or a table of a study: ``{time_s, value}``, or ``{file, columns, units}``, which
-`pyrofit.config.tables` reads."""
+`pyrofit.config.expand.tables` reads."""
 FluxOverTime = Annotated[OverTime, NOT_NEGATIVE]
 CoefficientOverTime = Annotated[OverTime, NOT_NEGATIVE]
 TemperatureOverTime = Annotated[OverTime, POSITIVE, WARM]

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from pyrofit.config import Study, kinetics_of
-from pyrofit.config.programs import externals
+from pyrofit.config.expand.programs import externals
 from pyrofit.errors import PyrofitError
 from pyrofit.estimate.pose import of_imp, of_kinetics, pose
 from pyrofit.estimate.problem import Problem

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from pyrofit.config import (
     Study,
 )
-from pyrofit.config.terms import TermSpec
+from pyrofit.config.keys.terms import TermSpec
 from pyrofit.plugins import code_digest
 
 Digests = dict[str, dict[str, str]]

@@ -12,7 +12,7 @@ from pyrofit.config import (
     kinetics_of,
     parameters_in,
 )
-from pyrofit.config.programs import externals
+from pyrofit.config.expand.programs import externals
 from pyrofit.config.uses import names_in
 from pyrofit.external.filled import file_digests
 from pyrofit.model.external import ExternalExperiment

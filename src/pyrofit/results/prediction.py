@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.config.unmeasured import unmeasured
+from pyrofit.config.check.unmeasured import unmeasured
 from pyrofit.results.files import Results, read_csv
 from pyrofit.results.needed import Keys
 

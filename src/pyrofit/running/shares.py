@@ -1,7 +1,7 @@
 """How the repetitions of the inverse modelling are shared out to jobs; no result depends on it."""
 
 from pyrofit.config import Study
-from pyrofit.config.programs import externals
+from pyrofit.config.expand.programs import externals
 from pyrofit.errors import StudyError
 
 KEY = "repetitions_per_job"

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from pyrofit.config import Study, parameters_in
-from pyrofit.config.derived import ends_of
+from pyrofit.config.check.expressions import ends_of
 from pyrofit.config.uses import parameters_of_heated
 from pyrofit.effects import known_effects
 from pyrofit.effects.base import changed

@@ -5,7 +5,7 @@ from typing import Any
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.config.programs import externals
+from pyrofit.config.expand.programs import externals
 from pyrofit.external.store import Store
 from pyrofit.results.files import Results
 from pyrofit.results.trial import timed_runs

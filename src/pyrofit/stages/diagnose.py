@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.config import Study, as_yaml, digest
-from pyrofit.config.programs import externals
+from pyrofit.config.expand.programs import externals
 from pyrofit.config.resolve import diagnosed
 from pyrofit.diagnose.base.journal import Journal
 from pyrofit.diagnose.diagnosis import examine

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from pyrofit.config import Study
-from pyrofit.config.study import is_own
+from pyrofit.config.keys.study import is_own
 from pyrofit.results.files import Results, read_csv
 
 

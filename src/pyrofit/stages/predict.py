@@ -6,7 +6,7 @@ import pandas as pd
 from pyrofit.analysis.best_sets import published_sets
 from pyrofit.analysis.uses import ESTIMATES
 from pyrofit.config import Study
-from pyrofit.config.unmeasured import unmeasured
+from pyrofit.config.check.unmeasured import unmeasured
 from pyrofit.cost.distances import root_mean_square
 from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.experiments import kind_of

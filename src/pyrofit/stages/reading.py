@@ -10,7 +10,7 @@ from pyrofit.analysis.agreement import disagreements
 from pyrofit.analysis.copied_records import notes_on_copies
 from pyrofit.analysis.differing_repeats import notes_on_repeats
 from pyrofit.config import Study, TermSpec
-from pyrofit.config.study import IN_MEMORY
+from pyrofit.config.keys.study import IN_MEMORY
 from pyrofit.data.csvfile import Table, read_table
 from pyrofit.data.download import FOLDER_VARIABLE
 from pyrofit.data.fetch import locate, store

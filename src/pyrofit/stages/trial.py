@@ -6,7 +6,7 @@ import numpy as np
 
 from pyrofit.analysis.good_sets import SWEEPS, WALKERS
 from pyrofit.config import Study, TermSpec
-from pyrofit.config.programs import externals
+from pyrofit.config.expand.programs import externals
 from pyrofit.errors import ProgramError
 from pyrofit.estimate.calls import optimiser_calls, sceua_calls
 from pyrofit.estimate.optimisers import OPTIMISERS

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.config.unmeasured import unmeasured
+from pyrofit.config.check.unmeasured import unmeasured
 from pyrofit.errors import DataError
 from pyrofit.experiments import kind_of
 from pyrofit.model.material import Material

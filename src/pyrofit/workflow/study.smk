@@ -24,9 +24,9 @@ if (
     end_while_starting()
 
 from pyrofit.config import as_study, digest
-from pyrofit.config.programs import externals, program_files
-from pyrofit.config.unmeasured import unmeasured
-from pyrofit.config.unusual import unusual
+from pyrofit.config.expand.programs import externals, program_files
+from pyrofit.config.check.unmeasured import unmeasured
+from pyrofit.config.check.unusual import unusual
 from pyrofit.discovery import added, loaded
 from pyrofit.errors import PyrofitError
 from pyrofit.provenance import STUDY as STUDY_MODULES

@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
-from pyrofit.config.cold import reacts_cold
+from pyrofit.config.check.cold import reacts_cold
 from pyrofit.constants import GAS_CONSTANT
 from pyrofit_exchange.fds.arrays import array
 from pyrofit_exchange.fds.depth import TWO_FLUX

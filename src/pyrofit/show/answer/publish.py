@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from pyrofit.analysis.answer import estimated_twice, one_each
 from pyrofit.analysis.estimates import Estimated
 from pyrofit.config import Study
-from pyrofit.config.oxidised import oxidised
+from pyrofit.config.check.oxidised import oxidised
 from pyrofit.results.kinetics import FITTED
 from pyrofit.show.facts import Facts
 from pyrofit.show.names import STAGES, named

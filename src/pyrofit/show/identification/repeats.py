@@ -5,7 +5,7 @@ import pandas as pd
 from pyrofit.analysis.estimates import estimated
 from pyrofit.analysis.repeats import Differing, Repeated, has_repeats, repeated
 from pyrofit.config import Study
-from pyrofit.config.nuisances import NUISANCES
+from pyrofit.config.expand.nuisances import NUISANCES
 from pyrofit.results import identification
 from pyrofit.results.files import Results
 from pyrofit.show.names import STAGES

@@ -2,7 +2,7 @@
 
 from pyrofit.analysis.uses import ESTIMATES, SCEUA, STARTED, predicted_sets
 from pyrofit.config import Study
-from pyrofit.config.unmeasured import unmeasured
+from pyrofit.config.check.unmeasured import unmeasured
 from pyrofit.quantities import known_quantities
 from pyrofit.results import prediction
 from pyrofit.results.files import Results

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.config import Study, TermSpec
-from pyrofit.config.unmeasured import unmeasured
+from pyrofit.config.check.unmeasured import unmeasured
 from pyrofit.errors import DataError
 from pyrofit.estimate.bands import band, carried, measured
 from pyrofit.estimate.channel_noise import noise_of

@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.config.programs import externals
+from pyrofit.config.expand.programs import externals
 from pyrofit.errors import DataError, StudyError
 from pyrofit.estimate.ensembles import ENSEMBLES
 from pyrofit.estimate.likelihood import Likelihood

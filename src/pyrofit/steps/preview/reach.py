@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.config.programs import externals
+from pyrofit.config.expand.programs import externals
 from pyrofit.estimate.coarse import point_noise
 from pyrofit.estimate.targets import Measurements
 from pyrofit.experiments import kind_of

@@ -3,7 +3,7 @@
 import numpy as np
 
 from pyrofit.config import Study
-from pyrofit.config.programs import externals
+from pyrofit.config.expand.programs import externals
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import Base, model_of
 from pyrofit.errors import StudyError

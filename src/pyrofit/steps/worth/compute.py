@@ -7,7 +7,7 @@ import numpy as np
 
 from pyrofit.analysis import data_worth
 from pyrofit.config import Study
-from pyrofit.config.programs import externals
+from pyrofit.config.expand.programs import externals
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.errors import DataError
 from pyrofit.estimate.posterior import curvature, limit_of

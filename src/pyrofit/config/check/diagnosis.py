@@ -1,6 +1,7 @@
 """Rules for the diagnosis of a study."""
 
-from pyrofit.config.numbers import require
+from pyrofit.config.check.stages import check_choice, check_estimate
+from pyrofit.config.keys.study import Study
 from pyrofit.config.resolve import (
     calibrated,
     calibration_channels,
@@ -10,9 +11,8 @@ from pyrofit.config.resolve import (
     held_out_channels,
     obstacle,
 )
-from pyrofit.config.stage_checks import check_choice, check_estimate
-from pyrofit.config.study import Study
 from pyrofit.config.uses import parameters_in
+from pyrofit.config.words import require
 from pyrofit.effects import known_effects
 from pyrofit.errors import suggest
 

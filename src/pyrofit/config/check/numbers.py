@@ -2,9 +2,10 @@
 
 from collections.abc import Sequence
 
-from pyrofit.config.derived import check_expression
-from pyrofit.config.study import Study
+from pyrofit.config.check.expressions import check_expression
+from pyrofit.config.keys.study import Study
 from pyrofit.config.uses import names_in, parameters_in
+from pyrofit.config.words import require
 from pyrofit.errors import suggest
 from pyrofit.model.base import Part, Rule, numbers
 from pyrofit.model.parameters import UNITS
@@ -36,12 +37,6 @@ _UNITS: dict[str, tuple[str, ...]] = {
 _SHARES = ("products", "composition")
 _SAME_UNIT = ("value", "of", "step")
 """Keys of a property whose unit is the property's."""
-
-
-def require(ok: bool, place: str, message: str) -> None:
-    """Raise ValueError with the place unless something holds."""
-    if not ok:
-        raise ValueError(f"{place}: {message}")
 
 
 def described(study: Study) -> dict[str, Part]:

@@ -5,7 +5,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from pyrofit.config.nuisances import NUISANCES, Keys, free, stages_of
+from pyrofit.config.expand.nuisances import NUISANCES, Keys, free, stages_of
 from pyrofit.config.words import in_plain_words
 from pyrofit.experiments import KINDS
 from pyrofit.model.repeats import Nuisances

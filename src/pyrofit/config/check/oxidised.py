@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from pyrofit.config.study import Study
+from pyrofit.config.keys.study import Study
 from pyrofit.data.gas_steps import holds_oxygen
 
 

@@ -4,8 +4,8 @@ import itertools
 import math
 from collections.abc import Iterator
 
-from pyrofit.config.derived import ends_of
-from pyrofit.config.study import Study
+from pyrofit.config.check.expressions import ends_of
+from pyrofit.config.keys.study import Study
 from pyrofit.constants import GAS_CONSTANT
 from pyrofit.model.material import Reaction
 

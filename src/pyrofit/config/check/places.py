@@ -1,8 +1,8 @@
 """Whether the places at which temperatures are measured lie in the sample."""
 
-from pyrofit.config.derived import ends_of
-from pyrofit.config.numbers import require
-from pyrofit.config.study import Study
+from pyrofit.config.check.expressions import ends_of
+from pyrofit.config.keys.study import Study
+from pyrofit.config.words import require
 from pyrofit.model.slab import SlabExperiment
 
 

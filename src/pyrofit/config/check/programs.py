@@ -1,12 +1,13 @@
-"""External programs of a study: places of their files, parameters of templates, and checks."""
+"""Rules for external programs of a study: their files, templates, patterns and units."""
 
 import re
-from pathlib import Path
 
 import numpy as np
 
-from pyrofit.config.numbers import alike_units, require
-from pyrofit.config.study import Study
+from pyrofit.config.check.numbers import alike_units
+from pyrofit.config.expand.programs import externals
+from pyrofit.config.keys.study import Study
+from pyrofit.config.words import require
 from pyrofit.errors import DataError, ProgramError, suggest
 from pyrofit.external.filled import other_files, template_text, used_parameters
 from pyrofit.external.output import in_si
@@ -16,57 +17,20 @@ from pyrofit.model.external import ExternalExperiment
 from pyrofit.model.program import Program
 
 
-def externals(study: Study) -> dict[str, ExternalExperiment]:
-    """Return the experiments that external programs simulate, by name."""
-    return {n: e for n, e in study.experiments.items() if isinstance(e, ExternalExperiment)}
-
-
-def with_programs(study: Study, folder: Path | None) -> Study:
-    """Return a study with the places of its programs and the units of their parameters.
-
-    Parameters
-    ----------
-    study
-        The study; each key is valid by itself.
-    folder
-        Folder of the study file; None if the files are found already.
+def check_programs(study: Study) -> None:
+    """Check the programs of a study, whose files are seen from the working folder.
 
     Raises
     ------
     ValueError
         With place, file and line, rule and remedy.
     """
-    made = {
-        name: e.model_copy(update={"program": _checked(study, name, e, folder)})
-        for name, e in externals(study).items()
-    }
-    if not made:
-        return study
-    return study.model_copy(update={"experiments": {**study.experiments, **made}})
+    for name, experiment in externals(study).items():
+        _check_program(study, f"experiments.{name}.program", experiment)
 
 
-def keeping_runs(study: Study, folder: Path) -> Study:
-    """Return a study whose programs keep their runs in a folder."""
-    made = {
-        name: e.model_copy(
-            update={"program": e.program.model_copy(update={"store": str(folder / name)})}
-        )
-        for name, e in externals(study).items()
-    }
-    return study.model_copy(update={"experiments": {**study.experiments, **made}})
-
-
-def program_files(study: Study) -> tuple[str, ...]:
-    """Return the files of the user that runs of programs need, templates among them."""
-    files = (file for e in externals(study).values() for file in e.program.own_files)
-    return tuple(dict.fromkeys(files))
-
-
-def _checked(
-    study: Study, name: str, experiment: ExternalExperiment, folder: Path | None
-) -> Program:
-    place = f"experiments.{name}.program"
-    program = _located(experiment.program, folder)
+def _check_program(study: Study, place: str, experiment: ExternalExperiment) -> None:
+    program = experiment.program
     try:
         text = template_text(program)
         other_files(program)
@@ -74,8 +38,7 @@ def _checked(
     except ProgramError as error:
         raise ValueError(f"{place}: {error}") from None
     _check_placeholders(study, place, program, {n for n, _ in places(text)})
-    used = used_parameters(program)
-    _check_units(study, place, program, used)
+    _check_units(study, place, program, used_parameters(program))
     for key in ("succeeds", "fails"):
         _check_pattern(f"{place}.{key}", getattr(program, key))
     for signal, reading in program.reads.items():
@@ -84,28 +47,6 @@ def _checked(
             in_si(reading, experiment.quantity(signal), dummy)
         except DataError as error:
             raise ValueError(f"{place}.reads.{signal}: {error}") from None
-    units = {n: program.units.get(n, study.parameters[n].unit) for n in sorted(used)}
-    return program.model_copy(update={"units": units})
-
-
-def _located(program: Program, folder: Path | None) -> Program:
-    """Return a program with its files as seen from the working folder."""
-    if folder is None:
-        return program
-    first = program.command[0]
-    here = folder / first
-    # A path from the home folder stays so: it is another one on another machine.
-    if not first.startswith("~") and ("/" in first or here.is_file()):
-        found = here.as_posix()
-        first = found if "/" in found else f"./{found}"
-    return program.model_copy(
-        update={
-            "template": (folder / program.template).as_posix(),
-            "input": program.input_name,
-            "command": (first, *program.command[1:]),
-            "files": tuple((folder / file).as_posix() for file in program.files),
-        }
-    )
 
 
 def _check_placeholders(study: Study, place: str, program: Program, there: set[str]) -> None:

@@ -1,18 +1,19 @@
 """Rules between the parts of a study."""
 
-from pyrofit.config.composition_checks import check_compositions
-from pyrofit.config.effects import check_true_effects
-from pyrofit.config.numbers import check_numbers, check_parameters, require
-from pyrofit.config.places import check_places
-from pyrofit.config.programs import externals
-from pyrofit.config.stage_checks import check_stages
-from pyrofit.config.study import Study
-from pyrofit.config.unmeasured import unmeasured
+from pyrofit.config.check.compositions import check_compositions
+from pyrofit.config.check.effects import check_true_effects
+from pyrofit.config.check.numbers import check_numbers, check_parameters
+from pyrofit.config.check.places import check_places
+from pyrofit.config.check.stages import check_stages
+from pyrofit.config.check.unmeasured import unmeasured
+from pyrofit.config.expand.programs import externals
+from pyrofit.config.keys.study import Study
 from pyrofit.config.uses import (
     numbers_of,
     parameters_in,
     parameters_of_heated,
 )
+from pyrofit.config.words import require
 from pyrofit.effects import known_effects
 from pyrofit.errors import suggest
 from pyrofit.experiments import kind_of

@@ -6,10 +6,10 @@ from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
 
-from pyrofit.config.nuisances import free, scattered, stages_of
-from pyrofit.config.repeated_names import at_costs, at_names, at_signals
-from pyrofit.config.uncertain import check_family, free_uncertain
-from pyrofit.config.words import in_plain_words
+from pyrofit.config.expand.nuisances import free, scattered, stages_of
+from pyrofit.config.expand.repeated_names import at_costs, at_names, at_signals
+from pyrofit.config.expand.uncertain import check_family, free_uncertain
+from pyrofit.config.words import in_plain_words, require
 from pyrofit.model.repeats import AnyRepeats, Repeat, Repeats
 
 Keys = dict[str, Any]
@@ -65,7 +65,7 @@ def _expanded(given: Mapping[str, Any], tests: Mapping[str, _Test]) -> Keys:
     for name, experiment in given["experiments"].items():
         new = tests[name].experiments if name in tests else {name: experiment}
         for own in new:
-            _require(
+            require(
                 own not in keys["experiments"] and (own == name or own not in given["experiments"]),
                 f"experiments.{name}.repeats",
                 f"another experiment is named '{own}'; give the repeats other names",
@@ -80,7 +80,7 @@ def _expanded(given: Mapping[str, Any], tests: Mapping[str, _Test]) -> Keys:
 
 def _test(name: str, experiment: Mapping[str, Any], others: Mapping[str, Any]) -> _Test:
     place = f"experiments.{name}.repeats"
-    _require(
+    require(
         experiment.get("uncertain") is None,
         f"experiments.{name}.uncertain",
         "the test has repeats; give it there, under `repeats`",
@@ -93,7 +93,7 @@ def _test(name: str, experiment: Mapping[str, Any], others: Mapping[str, Any]) -
     listed = repeats.tests
     if not isinstance(listed, Mapping):
         listed = {f"{name}_{i}": repeat for i, repeat in enumerate(listed, 1)}
-    _require(len(listed) > 1, place, "give at least two repeats, or leave the key out")
+    require(len(listed) > 1, place, "give at least two repeats, or leave the key out")
     found, sds = {}, {}
     for own, repeat in listed.items():
         found[own] = _experiment(name, own, experiment, repeat)
@@ -112,14 +112,14 @@ def _experiment(name: str, own: str, experiment: Mapping[str, Any], repeat: Repe
         signal: {"file": keys} if isinstance(keys, str) else keys
         for signal, keys in repeat.signals.items()
     }
-    _require(bool(given), place, "it has no file; give under signals the file of each signal")
+    require(bool(given), place, "it has no file; give under signals the file of each signal")
     of_sample = repeat.model_dump(include={"sample_mass_kg", "sample_area_m2"}, exclude_none=True)
     signals = {}
     for signal, keys in given.items():
         here = shared.get(signal)
         here = dict(here) if isinstance(here, Mapping) else {}
         signals[signal] = {**here, **of_sample, **keys}
-        _require(
+        require(
             "file" in keys or _is_synthetic(here),
             f"{place}.signals.{signal}",
             "give the file of this repeat",
@@ -127,7 +127,7 @@ def _experiment(name: str, own: str, experiment: Mapping[str, Any], repeat: Repe
     title = repeat.title or f"{experiment.get('title') or name}, {own.removeprefix(f'{name}_')}"
     kept = {key: value for key, value in experiment.items() if key != "repeats"}
     if repeat.sample:
-        _require(
+        require(
             isinstance(experiment.get("sample"), Mapping),
             f"{place}.sample",
             "the test has no sample; leave it out, or describe the sample of the test",
@@ -146,14 +146,9 @@ def _check_files(place: str, experiments: Mapping[str, Keys]) -> None:
     for own, keys in experiments.items():
         for signal, described in keys["signals"].items():
             file = described["file"]
-            _require(
+            require(
                 file == SYNTHETIC or (signal, file) not in seen,
                 f"{place}.{own}.signals.{signal}",
                 f"'{file}' is the file of {seen.get((signal, file))}, too; give its own file",
             )
             seen[signal, file] = own
-
-
-def _require(ok: bool, place: str, message: str) -> None:
-    if not ok:
-        raise ValueError(f"{place}: {message}")

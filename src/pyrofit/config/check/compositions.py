@@ -2,10 +2,11 @@
 
 from collections.abc import Mapping
 
-from pyrofit.config.derived import check_expression, ends_of
-from pyrofit.config.numbers import check_parameter, require
-from pyrofit.config.stages import KineticSet
-from pyrofit.config.study import Study
+from pyrofit.config.check.expressions import check_expression, ends_of
+from pyrofit.config.check.numbers import check_parameter
+from pyrofit.config.keys.stages import KineticSet
+from pyrofit.config.keys.study import Study
+from pyrofit.config.words import require
 from pyrofit.effects.base import ADDED
 from pyrofit.effects.substance import main_reaction
 from pyrofit.errors import suggest

@@ -5,15 +5,13 @@ from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
 
-from pyrofit.config.numbers import require
-from pyrofit.config.study import Study
+from pyrofit.config.keys.study import Study
 from pyrofit.effects import known_effects
 from pyrofit.effects.apply import with_effects
 from pyrofit.effects.base import Effect
 from pyrofit.experiments import AnyExperiment
-from pyrofit.model.base import value_of
 from pyrofit.model.experiment import Experiment
-from pyrofit.model.material import REST, Material
+from pyrofit.model.material import Material
 
 _EXPERIMENTS: TypeAdapter[dict[str, Any]] = TypeAdapter(dict[str, AnyExperiment])
 
@@ -83,39 +81,3 @@ def true_description(study: Study) -> tuple[Material, dict[str, Experiment]]:
         if any(study.is_computed(name, signal) for signal in experiment.signals)
     }
     return with_effects(study.material, computed, study.synthetic.effects)
-
-
-def check_true_effects(study: Study) -> None:
-    """Check the effects of the truth: that they are others than the model's, and their numbers.
-
-    Raises
-    ------
-    ValueError
-        With place, rule and way out.
-    """
-    assert study.synthetic is not None
-    place, catalogue = "synthetic.effects", known_effects()
-    for name, numbers in study.synthetic.effects.items():
-        require(
-            name not in study.with_effects,
-            f"{place}.{name}",
-            "the model has this effect, too; leave it out, there or under effects",
-        )
-        quantities = catalogue[name].quantities if name in catalogue else {}
-        for key in (key for key in quantities if key in numbers):
-            q = quantities[key]
-            require(
-                q.lower <= numbers[key] <= q.upper,
-                f"{place}.{name}.{key}",
-                f"{numbers[key]:g} lies outside the limits {q.lower:g} to {q.upper:g} of the "
-                "catalogue; correct it",
-            )
-    try:
-        material, _ = true_description(study)
-    except ValueError as error:
-        raise ValueError(f"{place}: {error}") from None
-    values = study.true_values()
-    total = sum(value_of(x, values) for x in material.composition.values() if x != REST)
-    require(
-        total <= 1.0 + 1e-9, place, f"the mass fractions add up to {total:g}, above 1; lower one"
-    )

@@ -5,10 +5,10 @@ from typing import Any, TypeVar
 
 from pydantic import Field
 
-from pyrofit.config.diagnosis import Diagnosis
-from pyrofit.config.known import Known
-from pyrofit.config.stages import Imp, Kinetics, Name, Validation
-from pyrofit.config.steps import Steps
+from pyrofit.config.keys.diagnosis import Diagnosis
+from pyrofit.config.keys.known import Known
+from pyrofit.config.keys.stages import Imp, Kinetics, Name, Validation
+from pyrofit.config.keys.steps import Steps
 from pyrofit.effects import known_effects
 from pyrofit.effects.base import ADDED
 from pyrofit.effects.substance import main_reaction

@@ -4,10 +4,10 @@ from collections.abc import Iterator, Mapping
 from itertools import dropwhile
 from math import isfinite
 
-from pyrofit.config.cold import cold_reactions
-from pyrofit.config.derived import ends_of
-from pyrofit.config.oxidised import oxidised
-from pyrofit.config.study import Study
+from pyrofit.config.check.cold import cold_reactions
+from pyrofit.config.check.expressions import ends_of
+from pyrofit.config.check.oxidised import oxidised
+from pyrofit.config.keys.study import Study
 from pyrofit.model.base import Part
 from pyrofit.model.properties import Table
 

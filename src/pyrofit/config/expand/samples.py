@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from pyrofit.config.repeats import SYNTHETIC
+from pyrofit.config.expand.repeats import SYNTHETIC
 
 KEYS = ("sample_mass_kg", "sample_area_m2")
 

@@ -4,7 +4,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from pyrofit.config.terms import Terms, TermSpec, channels_of
+from pyrofit.config.keys.terms import Terms, TermSpec, channels_of
 from pyrofit.model.base import Part
 
 Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*$")]

@@ -2,9 +2,9 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 
-from pyrofit.config.numbers import require
-from pyrofit.config.study import Study
-from pyrofit.config.terms import TermSpec
+from pyrofit.config.keys.study import Study
+from pyrofit.config.keys.terms import TermSpec
+from pyrofit.config.words import require
 from pyrofit.errors import suggest
 from pyrofit.experiments import kinds_of
 from pyrofit.experiments.base import Stage

@@ -1,8 +1,8 @@
 """Rules for the known values of a study."""
 
-from pyrofit.config.numbers import require
+from pyrofit.config.keys.study import Study
 from pyrofit.config.resolve import diagnosed_parameters
-from pyrofit.config.study import Study
+from pyrofit.config.words import require
 from pyrofit.errors import suggest
 
 

@@ -1,6 +1,6 @@
 """Experiments of which quantities are predicted that nobody measured."""
 
-from pyrofit.config.study import Study
+from pyrofit.config.keys.study import Study
 from pyrofit.model.slab import SlabExperiment
 
 

@@ -1,0 +1,1 @@
+"""Check: rules between the parts of a complete description, and hints at unusual values."""

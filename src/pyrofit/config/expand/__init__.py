@@ -1,0 +1,1 @@
+"""Expand: from the keys of a file to a complete description."""

@@ -1,0 +1,1 @@
+"""Keys: everything that may stand in a study, as parts that check themselves."""
