@@ -141,7 +141,7 @@ def test_record_that_starts_below_the_stated_mass_is_told(first: float, tmp_path
     path = record(
         tmp_path / "a.txt", "Sample Mass: 6 mg\nUser: a\n", header, TIME, KELVIN, first * MASS
     )
-    text, (run,) = drafted("x", {"tga": [path]})
+    text, (run,), *_ = drafted("x", {"tga": [path]})
     told = "it starts at 96.0 % of the stated initial mass, as after a drying"
     assert (told in text) == (first < 6.0)
     assert any(told in line for line in said(run)) == (first < 6.0)
