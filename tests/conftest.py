@@ -1,6 +1,7 @@
 """The speed classes of the tests: which compile the solver, draw for long, or run the workflow.
 
-The rest are the fast ones, `make test-fast`; none of them compiles a kernel.
+A folder `slow`, `solver` or `long` has the tests of its class. The rest are the fast ones, `make
+test-fast`; none of them compiles a kernel.
 """
 
 import os
@@ -17,74 +18,26 @@ HERE = Path(__file__).parent
 # A shell starts background processes with Ctrl-C ignored; processes that a test interrupts heed it.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+CLASSES = ("fast", "slow", "solver", "long")
 FOLDERS = {
-    "blind_test": "solver",
+    "compare": "solver",
     "diagnose": "solver",
     "effects": "solver",
     "exchange": "solver",
     "explore": "solver",
+    "blind_test": "solver",
     "recovery": "solver",
     "scheme": "solver",
     "slurm": "long",
     "verification": "solver",
     "workflow": "long",
 }
-FILES = {
-    "test_archive": "slow",
-    "test_archive_crate": "slow",
-    "test_bad_input": "solver",
-    "test_blind_test_parts": "long",
-    "test_blind_test_short": "long",
-    "test_char_in_air": "long",
-    "test_compare_models": "solver",
-    "test_comparison": "solver",
-    "test_compiled_cache": "long",
-    "test_config_diagnosis": "solver",
-    "test_cost_properties": "slow",
-    "test_diagnosis_shown": "slow",
-    "test_ensemble": "solver",
-    "test_estimate": "solver",
-    "test_explore_browser": "long",
-    "test_external_runs": "slow",
-    "test_figures": "slow",
-    "test_grid": "solver",
-    "test_identify_stage": "solver",
-    "test_input_properties": "slow",
-    "test_interface_fits": "solver",
-    "test_interface_json": "solver",
-    "test_interface_weights": "solver",
-    "test_isoconversional_stage": "solver",
-    "test_lanes": "solver",
-    "test_macfp_predictions": "solver",
-    "test_macfp_submission": "solver",
-    "test_noise": "slow",
-    "test_objectives": "solver",
-    "test_notebooks": "solver",
-    "test_reaction_order": "solver",
-    "test_python_page": "solver",
-    "test_random_sets": "long",
-    "test_ready_timing": "solver",
-    "test_posterior_draws": "slow",
-    "test_preview": "solver",
-    "test_preview_errors": "long",
-    "test_posterior_stage": "solver",
-    "test_repeats_measured": "slow",
-    "test_report": "slow",
-    "test_report_steps": "slow",
-    "test_rescore_stage": "solver",
-    "test_robustness": "solver",
-    "test_running": "slow",
-    "test_sensitivity_stage": "solver",
-    "test_slab_quantities": "solver",
-    "test_sobol": "slow",
-    "test_stages": "solver",
-    "test_unmeasured": "solver",
-    "test_worth_stage": "solver",
-}
-"""Files of another class than the others of their folder, which are fast unless it has a class."""
+"""Classes of folders whose tests are not fast; the name of a folder in them goes before."""
 _LONGEST_FIRST = {"test_blind_test_short": 0, "test_kills": 1}
 
 
+# Helpers of several folders explain what they assert as the tests do.
+pytest.register_assert_rewrite(*(path.stem for path in (HERE / "support").glob("*.py")))
 KERNELS = [f"pyrofit.solver.kernels.{name}" for name in ("grid", "slab", "tga", "trace")]
 """Compiled modules that the solver imports when it runs."""
 
@@ -125,7 +78,9 @@ def class_of(path: Path) -> str | None:
     """Return the speed class of a file's tests; none where they are fast, or examples."""
     if HERE not in path.parents:
         return None
-    return FILES.get(path.stem) or FOLDERS.get(path.relative_to(HERE).parts[0])
+    package, *inside = path.relative_to(HERE).parts
+    name = inside[0] if inside and inside[0] in CLASSES else FOLDERS.get(package)
+    return None if name == "fast" else name
 
 
 def in_part(items: list[pytest.Item], part: tuple[int, int]) -> list[pytest.Item]:
@@ -153,8 +108,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 def pytest_sessionstart() -> None:
     """Refuse a class of what is not there."""
-    there = {path.stem for path in HERE.rglob("test_*.py")} | {path.name for path in HERE.iterdir()}
-    lacking = sorted({*FOLDERS, *FILES} - there)
+    lacking = sorted({*FOLDERS} - {path.name for path in HERE.iterdir()})
     if lacking:
         pytest.exit(f"tests/conftest.py: there is no {', '.join(lacking)}; correct it", 1)
 
@@ -165,9 +119,7 @@ class Refused(ModuleType):
     def __getattr__(self, name: str) -> object:
         if name.startswith("__"):
             raise AttributeError(name)
-        raise AssertionError(
-            "a fast test runs the solver; give its file the class `solver` in tests/conftest.py"
-        )
+        raise AssertionError("a fast test runs the solver; move its file into a folder `solver`")
 
 
 @pytest.fixture(autouse=True)

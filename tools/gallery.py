@@ -78,7 +78,7 @@ class Group:
 
 
 _K_T = """'synthetic={"effects": {"k_T": {"slope_1_K": -0.001}}}'"""
-_CALORIMETRY = "python tests/recovery/calorimetry_study.py > calorimetry.json"
+_CALORIMETRY = "python tests/support/calorimetry_study.py > calorimetry.json"
 GROUPS = (
     Group(
         "A study on synthetic data",

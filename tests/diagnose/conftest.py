@@ -6,20 +6,11 @@ import pickle
 from collections.abc import Callable
 
 import pytest
+from hidden_effects import HIDDEN, SEED, Diagnosed
 from small import measured, study
 
 from pyrofit.diagnose.diagnosis import Diagnosis, examine
 
-HIDDEN: dict[str, dict[str, float]] = {
-    "nothing": {},
-    "k_T": {"k_T": -1e-3},
-    "in_depth": {"in_depth": 3.5e-4},
-    "heater_ramp": {"heater_ramp": 8.0},
-    "volatile": {"volatile": 0.015},
-}
-SEED = 2
-
-Diagnosed = Callable[[str], Diagnosis]
 Once = Callable[[str, Callable[[], Diagnosis]], Diagnosis]
 
 

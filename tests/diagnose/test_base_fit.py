@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from conftest import HIDDEN, SEED
+from hidden_effects import HIDDEN, SEED
 from small import CHANNELS, LIMITS, SD, measured, study
 
 from pyrofit.config import candidate_effects

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 import yaml
-from conftest import HIDDEN, SEED
+from hidden_effects import HIDDEN, SEED
 from small import CHANNELS, SD, given, measured
 
 from pyrofit.cli import main

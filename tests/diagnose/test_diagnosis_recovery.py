@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from conftest import HIDDEN, SEED, Diagnosed
+from hidden_effects import HIDDEN, SEED, Diagnosed
 from small import measured, study, truth_of
 
 from pyrofit.diagnose.base.descent import descend

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from conftest import HIDDEN, SEED, Diagnosed
+from hidden_effects import HIDDEN, SEED, Diagnosed
 from small import CHANNELS, LIMITS, given, measured, study, truth_of
 
 from pyrofit.config import (

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from conftest import Diagnosed
+from hidden_effects import Diagnosed
 from small import TIMES
 
 from pyrofit.diagnose.diagnosis import Diagnosis

@@ -3,7 +3,7 @@
 import linear
 import numpy as np
 import pytest
-from conftest import HIDDEN, Diagnosed
+from hidden_effects import HIDDEN, Diagnosed
 from linear import TOTAL, column_of
 
 from pyrofit.diagnose.base.fitted import FittedModel

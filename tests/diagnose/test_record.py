@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import Diagnosed
+from hidden_effects import Diagnosed
 from small import LIMITS, TRUTH, measured, study
 
 from pyrofit.diagnose.diagnosis import Diagnosis, examine

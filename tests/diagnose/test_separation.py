@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from test_free_corrections import MLR, SLABS, STEP, nothing, substance, twin
+from free_twins import MLR, SLABS, STEP, nothing, substance, twin
 
 from pyrofit.diagnose.advise.candidate_experiments import ideas
 from pyrofit.diagnose.advise.separation import Design, next_experiments

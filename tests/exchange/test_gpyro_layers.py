@@ -20,7 +20,7 @@ from pyrofit_exchange.fds.predicted import predict_slab
 from pyrofit_exchange.gpyro.data import Data, slab_data
 from pyrofit_exchange.gpyro.grid import MOST, grid_of
 
-CURVE = Path(__file__).parents[1] / "data" / "gpyro" / "layers_40.csv"
+CURVE = Path(__file__).parents[1] / "stored" / "gpyro" / "layers_40.csv"
 FOIL = {"thickness_m": 1e-4, "density_kg_m3": 8940, "specific_heat_J_kgK": 380}
 
 

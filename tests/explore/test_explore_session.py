@@ -2,16 +2,17 @@
 
 import base64
 import json
-import sys
 import time
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import cone_twin as cone
 import numpy as np
 import pandas as pd
 import pytest
+from calorimetry_study import STUDY as CALORIMETRY
 
 import pyrofit as pf
 from pyrofit.config import Study, as_study, as_yaml, read_mapping
@@ -25,10 +26,6 @@ from pyrofit_explore.model import model_of
 from pyrofit_explore.save import save
 from pyrofit_explore.session import Session, State, session_of, state_of
 from pyrofit_explore.sets import named_sets
-
-sys.path.insert(0, str(Path(__file__).parents[1] / "recovery"))
-import test_cone_twin as cone
-from calorimetry_study import STUDY as CALORIMETRY
 
 SMOKE = Path(__file__).parents[2] / "config" / "smoke.yaml"
 TRUTH = {"T_p": 605.0, "E_p": 190.0, "rho": 1190.0, "k": 0.2, "cp": 2.1, "eps": 0.9, "dh": 800.0}

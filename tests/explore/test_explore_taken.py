@@ -1,96 +1,30 @@
 """What the explorer takes from a published material to start from."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any
+from pathlib import Path
 
 import numpy as np
 import pytest
 import yaml
-from conftest import SMOKE
+from published_material import (
+    VARYING,
+    Change,
+    kinetics_alone,
+    of_thermal,
+    published,
+    second_reaction,
+    single,
+)
 
 from pyrofit.constants import GAS_CONSTANT
-from pyrofit_compare.published import Published, material_in
-from pyrofit_exchange.macfp.schema import StrictSet
+from pyrofit_compare.published import material_in
 from pyrofit_explore.model import Model
 from pyrofit_explore.session import Session, State
 from pyrofit_explore.taken import taken
 
-Change = Callable[[dict[str, Any]], object]
-
-
-def single(value: float) -> dict[str, object]:
-    return {"Form": "Single Value", "Value": value}
-
-
-def published(*changes: Change) -> Published:
-    """Return a polymer of one reaction, changed."""
-    residue = {"density": 1000.0, "conductivity": 0.2, "heat": 1000.0, "emissivity": 0.9}
-    polymer = {"density": 1190.0, "conductivity": 0.21, "heat": 2100.0, "emissivity": 0.88}
-
-    def each(key: str) -> dict[str, object]:
-        values = [single(polymer[key]), single(residue[key])]
-        return {"Form": "Component Specific", "Value": values}
-
-    given: dict[str, Any] = {
-        "Material": "polymer",
-        "Lab": "A",
-        "Calibration": [],
-        "Composition": {
-            "Number of Components": 2,
-            "Component Names": ["P", "R"],
-            "Initial Mass Fraction": [1.0, 0.0],
-        },
-        "Kinetics": {
-            "Reactants": [[1]],
-            "Products": [[2]],
-            "Pre-exponential": [1e13],
-            "Activation Energy": [190e3],
-            "Reaction Order": [1.0],
-            "Solid Yield": [0.01],
-        },
-        "Thermodynamics": {
-            "Heat Capacity": each("heat"),
-            "Heat of Pyrolysis": single(800e3),
-            "Density": each("density"),
-        },
-        "Transport": {
-            "Conductivity": each("conductivity"),
-            "Absorption": {"Form": "None"},
-            "Emissivity": each("emissivity"),
-        },
-    }
-    for change in changes:
-        change(given)
-    return Published("Polymer", StrictSet.model_validate(given))
-
-
-def of_thermal(key: str, form: dict[str, object]) -> Change:
-    return lambda given: given["Transport"].update({key: form})
-
-
-def second_reaction(given: dict[str, Any]) -> None:
-    """Let the polymer become another component first, which then becomes residue."""
-    given["Composition"] = {
-        "Number of Components": 3,
-        "Component Names": ["P", "Q", "R"],
-        "Initial Mass Fraction": [1.0, 0.0, 0.0],
-    }
-    given["Kinetics"].update(
-        Reactants=[[1], [2]],
-        Products=[[2], [3]],
-        **{key: 2 * given["Kinetics"][key] for key in ("Pre-exponential", "Activation Energy")},
-        **{"Reaction Order": [1.0, 1.0], "Solid Yield": [0.5, 0.02]},
-    )
-    for part in (given["Thermodynamics"], given["Transport"]):
-        for form in part.values():
-            if form["Form"] == "Component Specific":
-                form["Value"] = [form["Value"][0], *form["Value"]]
-
-
-def kinetics_alone(given: dict[str, Any]) -> None:
-    del given["Thermodynamics"], given["Transport"]
+SMOKE = Path(__file__).parents[2] / "config" / "smoke.yaml"
 
 
 def test_a_set_that_is_taken_whole_has_its_published_curves(session: Session) -> None:
@@ -113,9 +47,6 @@ def test_values_are_clipped_to_limits_and_that_is_told(session: Session) -> None
     values, said = taken(session.base, published(of_thermal("Emissivity", single(0.3))))
     assert values["eps"] == 0.5
     assert "eps 0.5, a limit (0.3 there)" in said
-
-
-VARYING = {"Form": "Linear", "Slope": 1e-4, "Intercept": 0.2}
 
 
 @pytest.mark.parametrize(

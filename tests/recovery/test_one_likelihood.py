@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
-from test_cone_twin import study as described
+from cone_twin import study as described
 
 import pyrofit as pf
 from pyrofit.api.fitted import Fit

@@ -16,7 +16,7 @@ from pyrofit.simulate import simulate_gasification, simulate_tga
 from pyrofit.solver.curves import Curves, Place, Request
 from pyrofit.solver.outputs import INSIDE
 
-DATA = Path(__file__).parents[1] / "data"
+DATA = Path(__file__).parents[1] / "stored"
 
 NAMES = ("rho_a", "k_a", "cp_a", "eps_a", "dh", "rho_r", "k_r", "cp_r", "eps_r")
 TABLE_4 = {
@@ -214,7 +214,7 @@ def tga_fraction(
 
 
 def reference(code: str, case: str) -> pd.DataFrame:
-    """A curve of ``tests/data/<code>``."""
+    """A curve of ``tests/stored/<code>``."""
     return pd.read_csv(DATA / code / f"{case}.csv", comment="#")
 
 

@@ -24,7 +24,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def _module(item: pytest.Item) -> str:
-    return item.path.stem if item.path.parent == HERE else ""
+    return item.path.stem if HERE in item.path.parents else ""
 
 
 def _folder(config: pytest.Config) -> Path | None:
@@ -80,7 +80,7 @@ def pytest_sessionfinish(session: pytest.Session, exitstatus: int) -> None:
         return
     collected = session.config.stash[SESSION]
     modules = {_module(item): item.module for item in session.items}
-    wanted = {path.stem for path in HERE.glob("test_*.py")} - {"test_page"}
+    wanted = {path.stem for path in HERE.rglob("test_*.py")} - {"test_page"}
     lacking = sorted(wanted - set(modules) | wanted & collected.partial)
     if lacking:
         pytest.exit(

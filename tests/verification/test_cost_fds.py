@@ -15,7 +15,7 @@ from evidence import Evidence
 
 from pyrofit.cost import Target, make_term
 
-CURVES = Path(__file__).parents[1] / "data" / "fds"
+CURVES = Path(__file__).parents[1] / "stored" / "fds"
 MEASURED = Path("PMMA", "Calibration_Data", "UMD", "UMD_CAPA_25kW_Mass.csv")
 ROOT = os.environ.get("PYROFIT_DATA_DIR")
 

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from cases import BEST, NAMES, Curve, paper_experiment, paper_material, rms_over_mean
 from evidence import Evidence
-from test_slab_balances import TABLE_6
+from sampling_limits import TABLE_6
 
 from pyrofit.experiments import Gasification
 from pyrofit.model.accuracy import Accuracy

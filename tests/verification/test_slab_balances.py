@@ -20,6 +20,7 @@ from cases import (
     slab_experiment,
 )
 from evidence import Evidence
+from sampling_limits import TABLE_6
 
 from pyrofit.model.accuracy import Accuracy
 from pyrofit.simulate import simulate_gasification
@@ -63,21 +64,6 @@ CASES = {
     "in depth, 25": Case(25, {}, {"absorption_1_m": 1e3}, BEST),
     "in depth, 60": Case(60, {}, {"absorption_1_m": 1e3}, BEST),
 }
-
-TABLE_6 = np.array(
-    [
-        (600.0, 1500.0),
-        (0.09, 0.35),
-        (875.0, 2725.0),
-        (0.01, 0.99),
-        (250e3, 1550e3),
-        (500.0, 1500.0),
-        (0.09, 0.55),
-        (500.0, 2000.0),
-        (0.01, 0.99),
-    ]
-)
-"""Sampling limits in the order of ``NAMES``, SI units."""
 
 
 def errors(case: Case, accuracy: Accuracy | None = None) -> tuple[float, float]:

@@ -1,7 +1,7 @@
 """The slab against Gpyro 0.82
 
 Gpyro on 201 nodes with steps of 0.1 s, first order in time; its own error is about 0.02 % at 25
-kW/m². Three of its bugs were corrected before (see the headers in `tests/data/gpyro`). Its heat
+kW/m². Three of its bugs were corrected before (see the headers in `tests/stored/gpyro`). Its heat
 of reaction is per kg of gas, so the inert 0.1 % is a third component here. At 60 kW/m² bins of 5 s
 are compared, because the rate collapses within seconds.
 """

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from test_kills import RESULTS, bits
+from kill_bits import RESULTS, bits
 from tiny import FIT, Project
 
 STUDY = ("--study", str(RESULTS / "study.json"))

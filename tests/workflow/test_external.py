@@ -2,15 +2,12 @@
 
 import os
 import shutil
-import sys
 import time
 from pathlib import Path
 
 import pytest
-from tiny import ROOT, Project, Run, kill
-
-sys.path.insert(0, str(ROOT / "tests" / "external"))
 from decay import study, write
+from tiny import ROOT, Project, Run, kill
 
 SUMMARY, SCORES = "results/decay/imp/summary.csv", "results/decay/validation/scores.csv"
 HISTORIES = [f"results/decay/imp/RMSE/{n:02d}{end}" for n in (0, 1) for end in (".csv.gz", ".json")]

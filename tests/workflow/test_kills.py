@@ -1,7 +1,6 @@
 """A run may be killed at any moment: the same command goes on to the same bits."""
 
 import contextlib
-import hashlib
 import os
 import random
 import re
@@ -13,11 +12,9 @@ from collections import Counter
 from pathlib import Path
 
 import pytest
+from kill_bits import RESULTS, bits
 from tiny import FIT, Project, kill
 
-RESULTS = Path("results/tiny")
-OF_THE_RUN = ("logs", "benchmarks", "running")
-"""Folders whose files may differ between two runs."""
 STAGES = (
     ("measurements",),
     ("kinetics",),
@@ -28,21 +25,6 @@ STAGES = (
 """Results of each stage."""
 LONGEST_S = 12.0
 """Longest time between the start of the first job and the kill."""
-
-
-def bits(project: Project) -> dict[str, str]:
-    """Return the digests of all results; the wall times that the report tells do not count."""
-    root = project.root / RESULTS
-    times = re.compile(rb"<li>Wall times of this run.*?</li>")
-    return {
-        path.relative_to(root).as_posix(): hashlib.sha256(
-            times.sub(b"", path.read_bytes()) if path.suffix == ".html" else path.read_bytes()
-        ).hexdigest()
-        for path in sorted(root.rglob("*"))
-        if path.is_file()
-        and path.relative_to(root).parts[0] not in OF_THE_RUN
-        and not path.name.endswith(".part")
-    }
 
 
 def lock_of(project: Project) -> bytes:

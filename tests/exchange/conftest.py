@@ -1,6 +1,0 @@
-"""The bases of the tests of effects serve these tests, too."""
-
-import sys
-from pathlib import Path
-
-sys.path.insert(0, str(Path(__file__).parents[1] / "effects"))

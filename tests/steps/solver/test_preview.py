@@ -1,0 +1,302 @@
+"""Data against limits: sets, band, windows outside, causes, words, figures."""
+
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from pyrofit.cli import main
+from pyrofit.config import Study, as_study, read_study
+from pyrofit.experiments.dsc import Dsc
+from pyrofit.results.files import Results, write_csv
+from pyrofit.stages.measurements import computed
+from pyrofit.steps.preview.compute import OF_REPEATS, all_simulated, preview, windows
+from pyrofit.steps.preview.corrections import corrections
+from pyrofit.steps.preview.figures import draw_all
+from pyrofit.steps.preview.fit import nearest
+from pyrofit.steps.preview.inputs import INPUTS
+from pyrofit.steps.preview.page import PAGE
+from pyrofit.steps.preview.reach import OF_BAND, OF_RANGE, Case, case_of, reached, simulate
+from pyrofit.steps.preview.record import BANDS, Distance, Found, Likely, Window, write
+from pyrofit.steps.preview.sentences import said
+from pyrofit.steps.preview.sets import draw
+
+CONFIG = Path(__file__).parents[3] / "config"
+SMOKE = CONFIG / "smoke.yaml"
+Frames = dict[tuple[str, str], pd.DataFrame]
+
+
+@cache
+def smoke() -> tuple[Study, Frames]:
+    study = read_study(SMOKE)
+    return study, computed(study, fast=True)
+
+
+# --- sets -----------------------------------------------------------------------------------
+
+
+def test_sets_fill_the_limits_evenly_and_are_those_of_the_seed() -> None:
+    study, _ = smoke()
+    sets = draw(study, study.parameters, 300)
+    assert sets.names == tuple(study.parameters)
+    counts = [np.histogram(column, bins=10, range=(0.0, 1.0))[0] for column in sets.unit.T]
+    assert np.min(counts) >= 28
+    assert np.max(counts) <= 32
+    rho = np.asarray(sets.values["rho"])
+    assert 900.0 <= rho.min() < 905.0
+    assert 1495.0 < rho.max() <= 1500.0
+    assert np.array_equal(sets.unit, draw(study, study.parameters, 300).unit)
+    other = study.model_copy(update={"seed": study.seed + 1})
+    assert not np.array_equal(sets.unit, draw(other, study.parameters, 300).unit)
+
+
+def test_sets_stay_near_known_values() -> None:
+    given = smoke()[0].model_dump(mode="json", exclude_defaults=True)
+    study = as_study({**given, "known": {"rho": {"value": 1200.0, "sd": 10.0}}}, "smoke.json")
+    rho = np.asarray(draw(study, study.parameters, 100).values["rho"])
+    assert 1170.0 <= rho.min() < rho.max() <= 1230.0
+
+
+def test_sets_at_ends_hold_all_other_parameters() -> None:
+    study, _ = smoke()
+    sets = draw(study, study.parameters, 4)
+    ends = sets.at_ends("k")
+    assert np.asarray(ends.values["k"]).tolist() == [0.1] * 4 + [0.4] * 4
+    assert np.array_equal(np.asarray(ends.values["cp"])[:4], np.asarray(ends.values["cp"])[4:])
+
+
+# --- band -----------------------------------------------------------------------------------
+
+
+def test_distance_beside_the_band_counts_from_the_margin() -> None:
+    curves = np.array([[0.0, 1.0, 2.0], [0.0, 2.0, 4.0]])
+    found = reached(np.array([0.0, 5.0, -3.0]), curves, np.zeros(3))
+    assert found.scale == 8.0  # of the record; the curves have 2 and 4
+    assert found.share_outside == 1.0  # the point inside is zero
+    margin = OF_RANGE * 8.0 + OF_BAND * np.array([0.0, 1.0, 2.0])
+    assert found.beyond == pytest.approx([0.0, 5.0 - 2.0 - margin[1], -(2.0 + 3.0 - margin[2])])
+    assert found.outside == pytest.approx(np.abs(found.beyond).mean() / 8.0)
+
+
+def test_noise_widens_the_margin_by_three_standard_deviations() -> None:
+    curves = np.array([[0.0, 1.0], [0.0, 1.0]])
+    assert reached(np.array([0.0, 1.5]), curves, np.full(2, 0.01)).beyond[1] > 0.0
+    assert reached(np.array([0.0, 1.5]), curves, np.full(2, 0.17)).beyond[1] == 0.0
+
+
+def test_sets_that_do_not_finish_make_no_band() -> None:
+    curves = np.array([[0.0, 1.0], [np.nan, np.nan]])
+    found = reached(np.array([0.0, 1.0]), curves, np.zeros(2))
+    assert found.upper.tolist() == [0.0, 1.0]
+    assert found.nearest.tolist() == [0.0, np.inf]
+
+
+def test_record_that_no_curve_finishes_for_is_far_from_all_sets_and_not_outside() -> None:
+    found = reached(np.array([0.0, 1.0]), np.full((3, 2), np.nan), np.zeros(2))
+    assert found.outside == 0.0
+    assert np.isinf(found.nearest).all()
+
+
+def test_window_has_its_ends_its_side_and_its_size() -> None:
+    study, _ = smoke()
+    frame = pd.DataFrame({"time_s": np.arange(6.0), "mlr_kg_m2_s": [0.0, 0.0, 9.0, 9.0, 0.0, 0.0]})
+    case = Case(study.experiments, {("slab_25", "mlr"): frame})
+    curves = np.array([[0.0, 1.0, 1.0, 1.0, 1.0, 0.0], [0.0, 2.0, 3.0, 2.0, 3.0, 0.0]])
+    one = reached(frame["mlr_kg_m2_s"].to_numpy(), curves, np.zeros(6))
+    first, above, last = windows(case, ("slab_25", "mlr"), one)
+    assert (above.begins, above.ends, above.above, above.largest) == (2.0, 3.0, True, 7.0)
+    assert (first.begins, last.ends) == (1.0, 4.0)
+    assert not first.above
+
+
+# --- causes ---------------------------------------------------------------------------------
+
+
+def test_corrections_undo_what_their_words_say() -> None:
+    study, frames = smoke()
+    case = case_of(study, frames)
+    channel = "slab_25", "mlr"
+    found = list(corrections(case, [channel], [channel]))
+    assert len({one.words for one in found}) == len(found)
+    (flux,) = [one for one in found if one.words == "the flux of slab_25 is 10 times too large"]
+    assert flux.change(case).experiments["slab_25"].front.flux_factor == pytest.approx(0.1)  # type: ignore[attr-defined]
+    (tenfold,) = [one for one in found if "slab_25 is 10 times too large: area" in one.words]
+    column = "mlr_kg_m2_s"
+    made = tenfold.change(case).frames[channel][column]
+    assert made.to_numpy() == pytest.approx(0.1 * case.frames[channel][column].to_numpy())
+    (swap,) = [one for one in found if one.words == "the files of slab_25 and slab_60 are swapped"]
+    assert swap.change(case).frames["slab_60", "mlr"] is case.frames[channel]
+    # A record that lies inside for the most part is not wrong by ten.
+    rest = [one.words for one in corrections(case, [channel], [])]
+    assert not any("10 times too large: area" in words for words in rest)
+    assert any("4 times too large: area" in words for words in rest)
+
+
+def test_baseline_of_an_instrument_is_a_line_that_leaves_a_usual_specific_heat() -> None:
+    described = {
+        "kind": "dsc",
+        "heating_rate_K_min": 10,
+        "start_temperature_K": 300,
+        "end_temperature_K": 800,
+        "signals": {"heat_flow": {"file": "a.csv"}, "mass_fraction": {"file": "a.csv"}},
+    }
+    kelvin = np.linspace(300.0, 800.0, 501)
+    mass = 1.0 - 0.8 / (1.0 + np.exp((600.0 - kelvin) / 10.0))
+    peak = 900.0 * np.exp(-(((kelvin - 600.0) / 20.0) ** 2))
+    own = 1500.0 * mass / 6.0
+    frame = pd.DataFrame({"time_s": 6.0 * (kelvin - 300.0), "temperature_K": kelvin})
+    drift = 40.0 - 5.0 * (kelvin - 300.0)
+    frames = {
+        ("a", "heat_flow"): frame.assign(heat_flow_W_kg=own + peak + drift),
+        ("a", "mass_fraction"): frame.assign(mass_fraction=mass),
+    }
+    words = "the heat flow of a holds a baseline of the instrument"
+    case = Case({"a": Dsc.model_validate(described)}, frames)
+    (one,) = [c for c in corrections(case, list(frames), []) if c.words.startswith(words)]
+    assert (one.cause, one.places) == ("baseline of the heat flow", ("a",))
+    made = one.change(case).frames["a", "heat_flow"]["heat_flow_W_kg"].to_numpy()
+    assert made == pytest.approx(own + peak, abs=1.0)
+    given = Dsc.model_validate({**described, "baseline": {"level_W_kg": 5.0}})
+    told = corrections(Case({"a": given}, frames), list(frames), [])
+    assert not [c for c in told if c.words.startswith(words)]
+
+
+def test_temperatures_in_the_wrong_unit_are_named_first_with_their_window() -> None:
+    study, frames = smoke()
+    key, column = ("slab_25", "back_temperature"), "back_temperature_K"
+    wrong = {**frames, key: frames[key].assign(**{column: frames[key][column] - 273.15})}
+    found = preview(study, wrong, 100).found
+    assert (found.windows[0].experiment, found.windows[0].signal) == key
+    assert not found.windows[0].above
+    assert (found.causes[0].cause, found.causes[0].places) == ("unit of temperature", ["slab_25"])
+    words = list(said(study, found))
+    assert words[0].startswith("slab_25, back temperature: the data lie below all sets from ")
+    assert "the temperatures are in °C, and were read as K" in words[1]
+
+
+def test_honest_study_is_not_accused_and_each_test_gets_a_figure(tmp_path: Path) -> None:
+    study, frames = smoke()
+    made = preview(study, frames)
+    assert (made.found.windows, made.found.causes, made.found.far) == ([], [], False)
+    assert made.found.unmoved == []
+    (sentence,) = said(study, made.found)
+    assert sentence.endswith("300 sets reach the data of all tests (6 records).")
+    draw_all(study, made.bands, made.found, Results(tmp_path), "figures")
+    drawn = {path.stem for path in (tmp_path / "figures").glob("*.png")}
+    assert drawn == set(study.experiments)
+
+
+def test_parameters_that_no_signal_feels_are_named() -> None:
+    study, frames = smoke()
+    heated = {channel: frame for channel, frame in frames.items() if channel[0].startswith("tga")}
+    assert preview(study, heated, 20).found.unmoved == ["rho", "k", "cp", "eps", "dh"]
+
+
+def test_test_that_no_set_finishes_is_told_and_not_compared() -> None:
+    study, frames = smoke()
+    hasty = study.accuracy.model_copy(update={"most_steps": 5})
+    made = preview(study.model_copy(update={"accuracy": hasty}), frames, 20)
+    assert made.found.unfinished == {"slab_25": 20, "slab_60": 20}
+    assert {one.experiment for one in made.found.nearest} == {"tga_5K", "tga_20K"}
+    assert set(made.bands["experiment"]) == {"tga_5K", "tga_20K"}
+    first, *_ = said(study, made.found)
+    assert first == (
+        "slab_25: 20 of 20 sets within the limits do not finish; its data are not compared."
+    )
+
+
+def test_study_of_an_external_program_is_told_that_nothing_is_compared() -> None:
+    study = read_study(CONFIG / "hotplate.yaml")
+    made = preview(study, {("plate_50", "mlr"): pd.DataFrame()})
+    assert made.bands.empty
+    assert list(said(study, made.found)) == [
+        "Data against limits: pyrofit itself simulates no record; nothing is compared."
+    ]
+
+
+def test_repeats_outside_are_told_beside_the_one_that_is_named() -> None:
+    given = smoke()[0].model_dump(mode="json", exclude_defaults=True)
+    given["experiments"]["slab_25"]["repeats"] = [{}, {}]
+    study = as_study(given, "smoke.json")
+    names = "slab_25_1", "slab_25_2"
+    windows = [
+        Window(
+            experiment=name,
+            signal="mlr",
+            begins=1.0,
+            ends=2.0,
+            above=True,
+            largest=1e-3,
+            share=0.1,
+        )
+        for name in names
+    ]
+    cause = Likely(cause="flux", places=["slab_25_1"], words="it is", explained=0.9, left=0.01)
+    left = [Distance(experiment=name, signal="mlr", left=0.3) for name in names]
+    found = Found(
+        sets=9, unfinished={}, windows=windows, nearest=left, far=True, causes=[cause], unmoved=[]
+    )
+    *_, last = said(study, found)
+    assert last == "The same may hold for slab_25_2: repeats of slab_25_1 that lie outside, too."
+
+
+def with_repeat(factor: float) -> tuple[Study, Frames]:
+    """Return the study with a second repeat of a test, whose values are multiplied."""
+    study, frames = smoke()
+    given = study.model_dump(mode="json", exclude_defaults=True)
+    given["experiments"]["slab_60"]["repeats"] = [{}, {}]
+    first = frames["slab_60", "mlr"]
+    second = first.assign(**{name: factor * first[name] for name in first if name != "time_s"})
+    repeats = {("slab_60_1", "mlr"): first, ("slab_60_2", "mlr"): second}
+    return as_study(given, "smoke.json"), repeats
+
+
+@pytest.mark.parametrize(("factor", "rows"), [(1.0, OF_REPEATS), (10.0, 40)])
+def test_a_further_repeat_takes_few_sets_unless_it_lies_outside(factor: float, rows: int) -> None:
+    study, frames = with_repeat(factor)
+    case, sets = case_of(study, frames), draw(study, study.parameters, 40)
+    found, every = all_simulated(study, case, sets), simulate(study, case, sets)
+    first, further = ("slab_60_1", "mlr"), ("slab_60_2", "mlr")
+    np.testing.assert_array_equal(found[first], every[first])
+    np.testing.assert_array_equal(found[further], every[further][:rows])
+
+
+def test_no_further_descent_follows_one_that_suffices() -> None:
+    study, frames = smoke()
+    case = case_of(study, {c: f for c, f in frames.items() if c[0] == "tga_5K"})
+    sets = draw(study, study.parameters, 8)
+    told: list[bool] = []
+    for suffices in (True, False):
+        told.clear()
+        nearest(
+            study,
+            case,
+            sets,
+            simulate(study, case, sets),
+            lambda left: told.append(bool(left)) or suffices,  # noqa: B023
+        )
+        assert told == [True] * (1 if suffices else 2)
+
+
+def test_step_leaves_all_its_files_where_nothing_is_compared(tmp_path: Path) -> None:
+    study, results = read_study(CONFIG / "hotplate.yaml"), Results(tmp_path)
+    made = preview(study, {("plate_50", "mlr"): pd.DataFrame()})
+    write_csv(results.of_step("preview", BANDS), made.bands)
+    write(results, made.found)
+    PAGE.draw_and_write(study, results)
+    left = {path.name for path in (tmp_path / "preview").iterdir()}
+    # The folder of figures is left, too, but it is no output: Snakemake would mark it.
+    assert left == {*INPUTS.files, *INPUTS.folders, "figures"}
+
+
+# --- commands -------------------------------------------------------------------------------
+
+
+def test_check_with_data_tells_and_draws(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["check", str(SMOKE), "--data", "--figures", str(tmp_path / "drawn")]) == 0
+    assert "300 sets reach the data of all tests (6 records)" in capsys.readouterr().out
+    assert len(list((tmp_path / "drawn").glob("*.svg"))) == 4
