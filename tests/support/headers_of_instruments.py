@@ -416,4 +416,51 @@ EXPORTS = [
         "s kg/m2/s K",
         "\t",
     ),
+    Export(
+        "balance of ash",
+        "tga",
+        "Analysis Time,Temperature,Mass\nsec,C,g",
+        "s C g",
+    ),
+    Export("logger, units alone", "tga", "Elapsed (s)\tT_sample (degC)\tMass_mg", "s C mg", "\t"),
+    Export(
+        "Setsys, corrected",
+        "tga",
+        "Initial mass : 6.00 mg\n"
+        "Time (s)\tSample Temperature (°C)\tTG corrected (mg)\tdTG (mg/min)",
+        "s C -mg x",
+        "\t",
+    ),
+    Export("script", "tga", "t_s,T_K,m_rel", "s K 1", asked=("value",)),
+    Export("Korean", "tga", "시간 (min),온도 (°C),질량 (mg)", "min C mg"),
+    Export("Swedish", "tga", "Tid (s);Temp (°C);Massa (mg)", "s C mg", ";", ","),
+    Export("Finnish", "tga", "Aika (s);Lämpötila (°C);Massa (mg)", "s C mg", ";", ","),
+    Export(
+        "SII, number of the row",
+        "tga",
+        "No.,Time[min],Temp[Cel],DTA[uV],TG[ug]",
+        "x min C x ug",
+    ),
+    Export("STARe, arrow", "dsc", "^exo\nt [s];Ts [°C];Tr [°C];Value [W/g]", "s C Cf -W/g", ";"),
+    Export(
+        "TRIOS, DSC",
+        "dsc",
+        "Sample Mass\t6.0 mg\nExotherm\tDown\n\n[step]\n"
+        "Time\tTemperature\tHeat Flow (Normalized)\nmin\t°C\tW/g",
+        "min C W/g",
+        "\t",
+    ),
+    Export(
+        "cone, dotted units",
+        "cone",
+        "Time (s),Heat Release Rate (kW/m2),Mass Loss Rate (g/s.m2),CO (kg/kg)",
+        "s kW/m2 g/m2/s x",
+    ),
+    Export("cone, symbols", "cone", "time_s,qdot_kW_m2,mdot_g_m2s", "s kW/m2 g/m2/s"),
+    Export(
+        "gasification, dashed unit",
+        "gasification",
+        "time (sec),mass loss rate (g/m^2-s),back face temp (K)",
+        "s g/m2/s K",
+    ),
 ]

@@ -206,4 +206,6 @@ def _exothermic_up(cell: str, value: str) -> bool | None:
         "down",
     ):
         return text in ("+1", "1", "up")
+    if (arrow := re.fullmatch(r"[\^↑]\s*(exo|endo)\w*", cell, re.IGNORECASE)) is not None:
+        return arrow[1].casefold() == "exo"
     return _upward(cell)

@@ -5,8 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from pyrofit.data.csvfile import Table
-from pyrofit.new_study.headers import is_abscissa, is_of_sample
-from pyrofit.new_study.units import stated_unit
+from pyrofit.new_study.headers import is_abscissa, is_foreign, is_of_sample
+from pyrofit.new_study.units import kind_of, stated_unit
 from pyrofit.quantities.base import Quantity
 from pyrofit.quantities.units import SCALES, ZEROS_K, header_key, unit_key
 
@@ -19,12 +19,15 @@ def candidates(
 ) -> list[str]:
     """Return the columns that may be the time or the temperature; one where it is clear.
 
-    Of several that agree, one is taken; of several temperatures, that of the sample.
+    Of several that agree, one is taken; of several temperatures, that of the sample. Where no name
+    tells one, that of its unit is taken: a time that rises, a temperature of no other body.
     """
     free = [n for n in table.columns if role == "time" or n not in empty]
     usual = {header_key(name) for q in quantities for name in q.roles.get(role, ())}
     known = [n for n in free if header_key(n) in usual]
     named = [n for n in free if is_abscissa(n, role)]
+    if not known and not named:
+        return _by_unit(table, free, role)
     if role == "temperature":
         # Beside the programme's or the furnace's stands that of the sample.
         of_sample = [n for n in named if is_of_sample(n)]
@@ -34,6 +37,15 @@ def candidates(
     if len(numbers) > 1 and _agree(table, numbers, role):
         return numbers[:1]
     return numbers or known or named
+
+
+def _by_unit(table: Table, names: Sequence[str], role: str) -> list[str]:
+    """Return the one column with a unit of a role; none where several have it."""
+    units = {n: stated_unit(table, n, (role,)) for n in names if not is_foreign(n)}
+    of_role = [n for n, (unit, read) in units.items() if read and kind_of(unit, (role,))]
+    if len(of_role) != 1 or (role == "time" and (np.diff(table.columns[of_role[0]]) < 0.0).any()):
+        return []
+    return of_role
 
 
 def _agree(table: Table, names: Sequence[str], role: str) -> bool:

@@ -7,7 +7,7 @@ _SAMPLE = r"(de?l?a?)?(l?echantillon|muestra|campione|amostra|probe|proben?)"
 _MASS = r"(masse|masa|massa|poids|peso|gewicht)"
 _OF = r"(dela|del|de|du|des|di|da)?"
 _WORDS = (
-    (r"(temps|tempo|tiempo)(ecoule|total|deltest)?|czas|tijd|时间|時間|время", "time"),
+    (r"(temps|tempo|tiempo)(ecoule|total|deltest)?|czas|tijd|时间|時間|시간|время", "time"),
     (r"(versuchs|mess|lauf)?zeit", "time"),
     (rf"temperatur[ae]?{_SAMPLE}|probentemp(eratur)?", "sample temperature"),
     (rf"temperatur[ae]?{_OF}(four|horno|forno|ofen)|ofentemp(eratur)?", "furnace temperature"),
@@ -21,7 +21,7 @@ _WORDS = (
         r"|(proben?)?(oberflachen|vorderseiten)temp(eratur)?",
         "front temperature",
     ),
-    (r"temperatur[ae]?|温度|температура(образца)?", "temperature"),
+    (r"temperatur[ae]?|温度|온도|температура(образца)?", "temperature"),
     (
         rf"(vitesse|taux|debit|velocidad|tasa|velocita){_OF}(perte|perdida|perdita){_OF}{_MASS}"
         r"|mass(en?)?verlust(rate|geschwindigkeit)|mlr",
@@ -37,7 +37,7 @@ _WORDS = (
         "mass fraction",
     ),
     (
-        rf"(rest|proben|abs)?{_MASS}({_SAMPLE}|residuelle|restante|residu[ao]l?)?|质量|重量|質量"
+        rf"(rest|proben|abs)?{_MASS}({_SAMPLE}|residuelle|restante|residu[ao]l?)?|质量|重量|質量|질량"
         r"|масса|тг",
         "mass",
     ),
@@ -64,6 +64,7 @@ def english(stem: str) -> str:
     ('time', 'temp', 'massloss', 'tc1')
     """
     plain = "".join(c for c in unicodedata.normalize("NFKD", stem) if not unicodedata.combining(c))
+    plain = unicodedata.normalize("NFC", plain)  # letters of Korean are one sign again
     plain, number = re.fullmatch(r"(.*?)(\d*)", re.sub(r"['’]", "", plain)).groups()  # type: ignore[union-attr]
     for pattern, words in _WORDS:
         if re.fullmatch(pattern, plain):

@@ -22,7 +22,7 @@ QUANTITY = Quantity(
     uncertainty_headers=("Mass fraction error", "Mass error"),
     pattern=r"(norm\w*|residual|relative|abs(olute)?|(un)?subtracted)?(sample)?"
     r"(mass|weight)(?!loss|flux|flow).*"
-    r"|masse|gewicht|m|tga?|w|y",
+    r"|masse|gewicht|m(rel\w*)?|tga?(corr\w*)?|w|y",
     guess=_guess,
     largest=(0.5, 1.5),
     against_temperature=True,

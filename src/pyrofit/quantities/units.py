@@ -65,13 +65,17 @@ _SIGNS = str.maketrans(
 
 
 def unit_key(unit: str) -> str:
-    """Reduce a unit to one spelling: `kg m-2 s-1`, `kg/(m^2 s)` and `kg/m²/s` to `kg/s/m2`."""
+    """Reduce a unit to one spelling: `kg m-2 s-1`, `kg/(m^2 s)` and `kg/m²/s` to `kg/s/m2`.
+
+    >>> {unit_key(unit) for unit in ("g/s.m2", "g/m^2-s", "g/m2.s", "g m-2 s-1")}
+    {'g/s/m2'}
+    """
     key = re.sub(r"[\s^*·⋅()\[\]]", "", unit.casefold()).translate(_SIGNS)
     key = re.sub(r"^(cel|celsius)$", "°c", key)
     key = re.sub(r"(c?m)-2", r"/\g<1>2", key)
     key = re.sub(r"([km]?g|s|min)-1", r"/\1", key)
-    key = re.sub(r"/(s|min)-(c?m2)$", r"/\1/\2", key)
-    key = re.sub(r"/(c?m2)/?(s|min)$", r"/\2/\1", key)
+    key = re.sub(r"/(s|min)[.-](c?m2)$", r"/\1/\2", key)
+    key = re.sub(r"/(c?m2)[/.-]?(s|min)$", r"/\2/\1", key)
     return re.sub(r"/(s|min)(c?m2)$", r"/\1/\2", key)
 
 
