@@ -8,14 +8,15 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.errors import DataError, StudyError
+from pyrofit.errors import DataError
 from pyrofit.experiments import kind_of
 from pyrofit.model.material import Material
 from pyrofit.model.slab import SlabExperiment
 from pyrofit.results.files import Results
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages.reading import read_all
-from pyrofit_compare.given import exposure, read_tests, thickness
+from pyrofit_compare.apparatus import Apparatus
+from pyrofit_compare.given import exposure, group_of, read_tests, thickness
 from pyrofit_compare.others import Curve, matching, read_predictions
 from pyrofit_compare.score import Mean, at_times, mean_of, nrms
 from pyrofit_exchange.sets import parameter_set
@@ -49,6 +50,8 @@ class ComparedWith:
         Assumptions, in words.
     left
         Which files and values are left out, and why.
+    apparatus
+        Numbers of the apparatus that its inert runs tell.
     """
 
     study: Study
@@ -58,6 +61,7 @@ class ComparedWith:
     curves: Mapping[Key, Mapping[str, FloatArray]]
     assumed: tuple[str, ...]
     left: tuple[str, ...]
+    apparatus: Apparatus
 
 
 def compare_with(
@@ -78,9 +82,10 @@ def compare_with(
         A measured or predicted file breaks a rule, or a simulation does not finish.
     """
     chosen = parameter_set(study, results, label, beside or Path())
-    given = read_tests(tests, study.model_copy(update={"material": chosen.material}))
+    posed = study.model_copy(update={"material": chosen.material})
+    given = read_tests(tests, posed, chosen.values)
     material = given.study.material
-    values = given.study.fixed_values() | chosen.values
+    values = {**given.study.fixed_values(), **chosen.values, **given.apparatus.values}
     others = read_predictions(predictions, given.area_m2)
     series = measured_series(given.study, tests)
     measured, ours, left = both_records(given.study, series, tests, material, values)
@@ -92,7 +97,7 @@ def compare_with(
             means[key] = mean_of(records)
         except DataError as error:
             raise DataError(f"{tests}: experiments.{key[0]}: {key[1]}: {error}.") from None
-        by_who = {OURS: ours[key], **_others(given.study, tests, key, others.curves)}
+        by_who = {OURS: ours[key], **_others(given.study, values, key, others.curves)}
         found[key] = {who: at_times(means[key], curves) for who, curves in by_who.items()}
         rows += _scored(key, means[key], found[key])
     counts = {key: mean.repeats for key, mean in means.items()}
@@ -101,7 +106,14 @@ def compare_with(
         counts[t, s] for t, s in zip(scores["test"], scores["signal"], strict=True)
     ]
     return ComparedWith(
-        given.study, chosen.label, scores, means, found, given.assumed, (*left, *others.left)
+        given.study,
+        chosen.label,
+        scores,
+        means,
+        found,
+        given.assumed,
+        (*left, *others.left),
+        given.apparatus,
     )
 
 
@@ -117,12 +129,6 @@ def _scored(key: Key, mean: Mean, curves: Mapping[str, FloatArray]) -> list[dict
         errors = {"nrms": nrms(mean, curve), "this_study": nrms(mean, own)}
         rows.append({**about, "who": who, **errors, "covered": float(kept.mean())})
     return rows
-
-
-def group_of(study: Study, name: str) -> str:
-    """Return the name of the test that an experiment repeats, or its own."""
-    repeat = study.experiments[name].repeat
-    return repeat.test if repeat is not None else name
 
 
 def measured_series(study: Study, place: Path | str) -> Series:
@@ -182,17 +188,14 @@ def both_records(
 
 
 def _others(
-    study: Study, tests: Path, key: Key, others: Sequence[Curve]
+    study: Study, values: Mapping[str, float], key: Key, others: Sequence[Curve]
 ) -> dict[str, list[Record]]:
     """Return the curves of others for a signal, from the start of the exposure."""
     name = next(n for n in study.experiments if group_of(study, n) == key[0])
     experiment = study.experiments[name]
     if not others or not isinstance(experiment, SlabExperiment):
         return {}
-    try:
-        flux, start = exposure(experiment)
-    except StudyError as error:
-        raise StudyError(f"{tests}: experiments.{key[0]}: {error}") from None
+    flux, start = exposure(experiment, values)
     if not flux > 0.0:
         return {}
     found: dict[str, list[Record]] = {}

@@ -1,6 +1,6 @@
 """The further tests: an own small YAML file with experiments as in a study."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -10,10 +10,19 @@ from pyrofit.config import Study, as_study, read_mapping
 from pyrofit.config.keys.study import is_own
 from pyrofit.effects.apply import with_shared
 from pyrofit.errors import StudyError, suggest
+from pyrofit.model.base import value_of
 from pyrofit.model.slab import SlabExperiment
 from pyrofit.stages.reading import SYNTHETIC
+from pyrofit_compare.apparatus import Apparatus, calibrated
 
-KEYS = ("experiments", "components", "area_m2", "assumed")
+KEYS = ("experiments", "components", "parameters", "inert", "known", "area_m2", "assumed")
+NAMED = ("experiments", "inert", "parameters")
+WORDS = {
+    "experiments": "an experiment",
+    "inert": "an experiment",
+    "parameters": "a parameter",
+    "components": "a component",
+}
 USUAL_AREA_M2 = 0.01
 """Exposed area of the samples whose masses MaCFP-2 and MaCFP-4 ask for [m2]."""
 
@@ -25,6 +34,8 @@ class Given(NamedTuple):
     ----------
     study
         The study with these experiments alone.
+    apparatus
+        Numbers of the apparatus that its inert runs tell.
     area_m2
         Area to which the masses of predictions belong [m2].
     assumed
@@ -32,15 +43,17 @@ class Given(NamedTuple):
     """
 
     study: Study
+    apparatus: Apparatus
     area_m2: float
     assumed: tuple[str, ...]
 
 
-def read_tests(path: Path, study: Study) -> Given:
+def read_tests(path: Path, study: Study, values: Mapping[str, float]) -> Given:
     """Read the tests, and put them in place of the experiments of a study.
 
     Paths of measured files are relative to the folder of the YAML file. `components` adds materials
-    of the apparatus, such as a wool.
+    of the apparatus, such as a wool. `parameters` names numbers of the apparatus that are fitted to
+    the `inert` runs, with `known` values of some. ``values`` are those of the study, SI units.
 
     Raises
     ------
@@ -51,50 +64,64 @@ def read_tests(path: Path, study: Study) -> Given:
     for key in keys:
         if key not in KEYS:
             raise StudyError(f"{path}: key '{key}' is not known. {suggest(str(key), KEYS)}")
-    experiments = _mapping(path, keys, "experiments")
-    if not experiments:
+    tests, inert, parameters = (_mapping(path, keys, key) for key in NAMED)
+    if not tests:
         raise StudyError(f"{path}: `experiments` is missing; list the tests as in a study")
-    for name in experiments:
-        if name in study.experiments:
-            raise StudyError(
-                f"{path}: experiments.{name}: the study has an experiment of this name, and may "
-                "have fitted it. Give the test a name of its own"
-            )
+    _check_names(path, "experiments", tests, study.experiments)
+    _check_names(path, "inert", inert, [*study.experiments, *tests])
+    _check_names(path, "parameters", parameters, study.parameters)
     posed = _elsewhere(study).model_dump(mode="json")
-    present = posed["material"]["components"]
     components = _mapping(path, keys, "components")
-    for name in components:
-        if name in present:
-            raise StudyError(
-                f"{path}: components.{name}: the study has a component of this name; leave it out "
-                "or take another name"
-            )
-    posed["material"]["components"] = present | components
-    posed["experiments"] |= experiments
+    _check_names(path, "components", components, posed["material"]["components"])
+    posed["material"]["components"] |= components
+    posed["experiments"] |= tests | inert
+    posed["parameters"] |= {name: _valued(own) for name, own in parameters.items()}
+    posed["known"] |= _mapping(path, keys, "known")
     every = as_study(posed, str(path))
     own = {n: e for n, e in every.experiments.items() if n not in study.experiments}
     own = with_shared(every.material, own, study.with_effects)
-    tests = every.model_copy(update={"experiments": own})
-    assumed = _assumed(path, keys, experiments)
-    return Given(tests, _area(path, keys), (*assumed, *_shared(study, tests)))
+    every = every.model_copy(update={"experiments": {**every.experiments, **own}})
+    runs = [n for n in own if group_of(every, n) in inert]
+    apparatus = calibrated(path, every, runs, list(parameters), values)
+    new = every.model_copy(update={"experiments": {n: own[n] for n in own if n not in runs}})
+    assumed = _assumed(path, keys, tests)
+    return Given(new, apparatus, _area(path, keys), (*assumed, *_shared(study, new)))
 
 
-def exposure(experiment: SlabExperiment) -> tuple[float, float]:
-    """Return the largest flux [W/m2] that a test states, and the time at which it begins [s].
+def group_of(study: Study, name: str) -> str:
+    """Return the name of the test that an experiment repeats, or its own."""
+    repeat = study.experiments[name].repeat
+    return repeat.test if repeat is not None else name
 
-    Raises
-    ------
-    StudyError
-        The flux is a parameter.
-    """
+
+def _valued(keys: Any) -> Any:
+    """Return keys of a parameter with a value, which no stage of the study has to estimate."""
+    if not isinstance(keys, Mapping):
+        return keys  # the checks of the study report the error
+    ends: list[Any] = [keys.get("lower"), keys.get("upper")]
+    if "value" in keys or not all(isinstance(end, int | float) for end in ends):
+        return keys
+    return {**keys, "value": 0.5 * sum(ends)}
+
+
+def _check_names(path: Path, key: str, given: Iterable[str], taken: Iterable[str]) -> None:
+    """Refuse names that the study has already: it may have fitted what they stand for."""
+    for name in given:
+        if name in taken:
+            raise StudyError(
+                f"{path}: {key}.{name}: {WORDS[key]} of this name is there already, in the study "
+                "or above; take another name"
+            )
+
+
+def exposure(experiment: SlabExperiment, values: Mapping[str, float]) -> tuple[float, float]:
+    """Return the largest flux of a test [W/m2], and the time at which it begins [s]."""
     flux = experiment.front.flux_W_m2
-    if isinstance(flux, int | float):
-        return float(flux), 0.0
-    times, values = getattr(flux, "time_s", None), getattr(flux, "value", None)
-    if times is None or values is None or any(isinstance(v, str) for v in values):
-        raise StudyError("flux_W_m2 is no number; predictions of others are matched by it")
-    largest = int(np.argmax(np.asarray(values, float)))
-    return float(values[largest]), float(times[largest])
+    if isinstance(flux, int | float | str):
+        return float(value_of(flux, values)), 0.0
+    given = [float(value_of(number, values)) for number in flux.value]
+    largest = int(np.argmax(given))
+    return given[largest], float(flux.time_s[largest])
 
 
 def thickness(experiment: SlabExperiment) -> float:

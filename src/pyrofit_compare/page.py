@@ -8,7 +8,9 @@ import pandas as pd
 from pyrofit.results.files import write_bytes, write_csv
 from pyrofit.show.style import style
 from pyrofit.show.units import shown
-from pyrofit_compare.compute import OURS, REPEATS, ComparedWith, Key, group_of
+from pyrofit_compare.apparatus import Apparatus
+from pyrofit_compare.compute import OURS, REPEATS, ComparedWith, Key
+from pyrofit_compare.given import group_of
 
 PAGE, TABLE, SUMMARY = "comparison.md", "scores.csv", "summary.csv"
 
@@ -69,6 +71,7 @@ def _lines(found: ComparedWith, figures: dict[Key, str]) -> list[str]:
             "Predictions of others hold for the apparatus that they assume. Ideal cases have no "
             "convection and an insulated back: their errors include that difference.",
         ]
+    lines += _apparatus(found.apparatus)
     if found.assumed:
         lines += ["", "## Assumed and to know", "", *[f"- {line}" for line in found.assumed]]
     if found.left:
@@ -85,6 +88,18 @@ def _lines(found: ComparedWith, figures: dict[Key, str]) -> list[str]:
             lines += ["", "One test alone: the scatter of repeats is not known."]
         lines += ["", f"![{key[0]}, {key[1]}: measured and predicted]({figure})"]
     return [*lines, ""]
+
+
+def _apparatus(apparatus: Apparatus) -> list[str]:
+    """Return the numbers of the apparatus with their intervals, and whether it is described."""
+    if apparatus.fit is None:
+        return []
+    lines = ["", "## Apparatus", "", "These numbers are fitted to the runs on inert bodies.", ""]
+    lines += ["| parameter | value | 95 % interval | unit |", "|---|---|---|---|"]
+    for name, row in apparatus.fit.table.to_dict("index").items():
+        interval = f"{row['low']:.3g} to {row['high']:.3g}"
+        lines.append(f"| {name} | {row['value']:.3g} | {interval} | {row['unit']} |")
+    return [*lines, "", *apparatus.fit.verdict]
 
 
 def _shown(number: float) -> str:

@@ -87,7 +87,7 @@ def test_a_name_of_the_study_is_refused(
     path.write_text(yaml.safe_dump({"experiments": {"slab_25": keys["experiments"]["new"]}}))
     assert main(["compare-with", str(SMOKE), str(path), "--set", "truth"]) == 2
     said = capsys.readouterr().err
-    assert f"{path}: experiments.slab_25: the study has an experiment of this name" in said
+    assert f"{path}: experiments.slab_25: an experiment of this name is there already" in said
     path.write_text(yaml.safe_dump({**keys, "aera_m2": 1.0}))
     assert main(["compare-with", str(SMOKE), str(path), "--set", "truth"]) == 2
     assert "key 'aera_m2' is not known. Did you mean 'area_m2'?" in capsys.readouterr().err
@@ -102,3 +102,79 @@ def test_a_file_that_the_study_has_is_told(tests: Path) -> None:
     told = [line for line in found.assumed if "the study has this file" in line]
     assert len(told) == 1
     assert told[0].startswith("new_1, mlr: the study has this file as used, mlr.")
+
+
+COPPER = {
+    "density_kg_m3": 8960,
+    "conductivity_W_mK": 390,
+    "specific_heat_J_kgK": 385,
+    "emissivity": 0.9,
+}
+
+
+def _with_h(flux: float, h: object, signals: dict[str, object], inert: bool) -> dict[str, object]:
+    keys = {k: v for k, v in _slab(flux, signals, []).items() if k != "repeats"}
+    keys["front"] = {**keys["front"], "h_W_m2K": h}  # type: ignore[dict-item]
+    plate = {"layers": [{"thickness_m": 0.004, "composition": {"copper": 1}}]}
+    return {**keys, "sample": plate} if inert else keys
+
+
+@pytest.fixture(scope="module")
+def apparatus(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A test and a run on a copper plate in an apparatus with h = 14 W/(m2 K)."""
+    folder, at = tmp_path_factory.mktemp("apparatus"), {"file": "synthetic", "every": 5}
+    material = yaml.safe_load(SMOKE.read_text())["material"]
+    material["components"]["copper"] = COPPER
+    runs = {
+        "new": _with_h(50e3, 14, {"mlr": at}, inert=False),
+        "plate": _with_h(50e3, 14, {"front_temperature": at}, inert=True),
+    }
+    study = pf.read_study(SMOKE, material=material, experiments=runs)
+    series = pf.simulate(study, TRUTH, experiments=list(runs)).series
+    rate, warm = series["new", "mlr"], series["plate", "front_temperature"]
+    _write(folder / "new.csv", rate["time_s"].to_numpy(), 1e3 * rate["mlr_kg_m2_s"].to_numpy())
+    noise = np.random.default_rng(1).normal(0.0, 0.5, len(warm))
+    pairs = zip(warm["time_s"], warm["front_temperature_K"] + noise, strict=True)
+    rows = "".join(f"{t},{T}\n" for t, T in pairs)
+    (folder / "plate.csv").write_text(f"Time,Front Temperature\n[s],[K]\n{rows}")
+    return folder
+
+
+def _compared(folder: Path, h: object, **more: object) -> "pf.ComparedWith":
+    keys = {
+        "experiments": {"new": _with_h(50e3, h, {"mlr": {"file": "new.csv"}}, inert=False)},
+        "components": {"copper": COPPER},
+        **more,
+    }
+    (folder / "tests.yaml").write_text(yaml.safe_dump(keys))
+    return pf.compare_with(SMOKE, folder / "tests.yaml", parameter_set="truth")
+
+
+def test_a_run_on_an_inert_plate_calibrates_the_apparatus(apparatus: Path) -> None:
+    file = {"front_temperature": {"file": "plate.csv"}}
+    found = _compared(
+        apparatus,
+        "h_cone",
+        parameters={"h_cone": {"unit": "W/(m2 K)", "lower": 2, "upper": 40}},
+        inert={"plate": _with_h(50e3, "h_cone", file, inert=True)},
+    )
+    assert found.apparatus.fit is not None
+    row = found.apparatus.fit.table.loc["h_cone"]
+    assert row["low"] < 14.0 < row["high"]
+    assert row["high"] - row["low"] < 4.0
+    ours = found.scores.set_index("who").loc[OURS, "nrms"]
+    assumed = _compared(apparatus, 8).scores.set_index("who").loc[OURS, "nrms"]
+    assert ours < 0.01 < 0.1 < assumed
+    assert set(found.scores["test"]) == {"new"}
+
+
+def test_numbers_of_an_apparatus_need_runs_and_runs_need_numbers(apparatus: Path) -> None:
+    one = {"h_cone": {"unit": "W/(m2 K)", "lower": 2, "upper": 40}}
+    with pytest.raises(pf.PyrofitError, match="`inert` lists none; add these runs"):
+        _compared(apparatus, "h_cone", parameters=one)
+    file = {"front_temperature": {"file": "plate.csv"}}
+    plate = {"plate": _with_h(50e3, 8, file, inert=True)}
+    with pytest.raises(pf.PyrofitError, match="`parameters` names no number to fit to them"):
+        _compared(apparatus, 8, inert=plate)
+    with pytest.raises(pf.PyrofitError, match=r"inert\.new: an experiment of this name"):
+        _compared(apparatus, "h_cone", parameters=one, inert={"new": plate["plate"]})
