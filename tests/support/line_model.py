@@ -55,7 +55,9 @@ class Posed:
     @property
     def runs(self) -> Any:
         point = SimpleNamespace(
-            quantity=lambda signal: SimpleNamespace(sampling="point", name="mlr")
+            quantity=lambda signal: SimpleNamespace(
+                sampling="point", name="mlr", against_temperature=False
+            )
         )
         return {"slab": SimpleNamespace(experiment=point)}
 

@@ -17,7 +17,7 @@ from pyrofit.estimate.goodness import goodness_of_fit
 from pyrofit.estimate.likelihood import Likelihood, fit
 from pyrofit.estimate.posterior import Posterior, interval, limit_of
 from pyrofit.estimate.profile import Interval, Profile, profile_of
-from pyrofit.estimate.wrong_model import covariance_of_misfit, least_squares
+from pyrofit.estimate.wrong_model import least_squares, sds_of_misfit
 from pyrofit.numerics import linear
 from pyrofit.results.goodness import APPARENT, Goodness
 from pyrofit.solver.arrays import FloatArray
@@ -173,7 +173,7 @@ def _of_wrong_model(likelihood: Likelihood, x: FloatArray, tested: Goodness) -> 
     plain, x = least_squares(likelihood, x)
     curves, slopes = _finished(likelihood, x), likelihood.slopes(x)
     posterior = likelihood.posterior(x, slopes)
-    sds = np.sqrt(np.diag(covariance_of_misfit(likelihood, plain, x, slopes, curves))).tolist()
+    sds = sds_of_misfit(likelihood, plain, x, slopes, curves).tolist()
     of_noise = np.sqrt(np.diag(posterior.covariance(None, 1.0))).tolist()
     estimates = tuple(
         Estimate(

@@ -8,13 +8,27 @@ repetition:
 
     minimise sum over signals |model(x) - y|^2 / s_c^2 + |(x_k - known value) / sd_k|^2.
 
-Curves deviate by a discrepancy of covariance D, see `pyrofit.estimate.discrepancy`. The parameters
-then scatter more than that minimum tells (Huber 1967, the sandwich; White 1982, doi
-10.2307/1912526). With J = d (model / s) / d x, known values K, and D / (s s^T) = W W^T,
+The parameters scatter more than that minimum tells, as misfits last (Huber 1967, the sandwich;
+White 1982, doi 10.2307/1912526). With J = d (model / s) / d x, and known values K,
 
-    C = H^-1 (J^T J + J^T W W^T J + K^T K + 12 I) H^-1,    H = J^T J + K^T K + 12 I.
+    C = H^-1 (B + K^T K + 12 I) H^-1,    H = J^T J + K^T K + 12 I.
+
+Curves deviate by a discrepancy of covariance D, see `pyrofit.estimate.discrepancy`. With
+D / (s s^T) = W W^T,
+
+    B = J^T J + J^T W W^T J.
+
+D counts times from the start of a record. That of a heated sample is where somebody started the
+oven, so that D is often too large. Another bound holds there: parameters hide as much misfit as is
+seen. The n points of all records of a quantity then count as one observation,
+
+    B = sum over quantities n J^T J.
+
+The smaller variance counts.
 """
 
+from collections import Counter
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -25,6 +39,7 @@ from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.noise import NoiseModel
 from pyrofit.estimate.posterior import UNIFORM
 from pyrofit.numerics import linear
+from pyrofit.quantities.base import Quantity
 from pyrofit.solver.arrays import FloatArray
 
 MOST_POINTS = 60
@@ -53,7 +68,7 @@ def _by_misfit(likelihood: Likelihood, curves: FloatArray) -> tuple[NoiseModel, 
     pairs = zip(likelihood.split(curves), values, strict=True)
     sizes = [float(np.sqrt(np.mean((curve - value) ** 2))) for curve, value in pairs]
     by_quantity: dict[str, list[float]] = {}
-    names = [_quantity(likelihood, k) for k in range(len(values))]
+    names = [_quantity(likelihood, k).name for k in range(len(values))]
     for name, size, value in zip(names, sizes, values, strict=True):
         least = LEAST * max(float(np.ptp(value)), 1e-300)
         by_quantity.setdefault(name, []).append(max(size, least))
@@ -67,15 +82,15 @@ def _by_misfit(likelihood: Likelihood, curves: FloatArray) -> tuple[NoiseModel, 
     )
 
 
-def _quantity(likelihood: Likelihood, channel: int) -> str:
+def _quantity(likelihood: Likelihood, channel: int) -> Quantity:
     experiment, signal, _ = likelihood.problem.picks[channel]
-    return likelihood.problem.runs[experiment].experiment.quantity(signal).name
+    return likelihood.problem.runs[experiment].experiment.quantity(signal)
 
 
-def covariance_of_misfit(
+def sds_of_misfit(
     likelihood: Likelihood, plain: Likelihood, x: FloatArray, slopes: FloatArray, curves: FloatArray
 ) -> FloatArray:
-    """Return C, shape (parameters, parameters).
+    """Return the standard deviations of the parameters, shape (parameters,).
 
     Parameters
     ----------
@@ -86,14 +101,43 @@ def covariance_of_misfit(
     slopes, curves
         d curves / d x and the curves there, shapes (points, parameters) and (points,).
     """
-    found = estimated(likelihood, x, slopes, curves, MOST_POINTS)
-    parts = zip(found, times(likelihood), likelihood.split(curves), plain.noise, strict=True)
-    white = [noise.whiten(of.factor(time, curve)) for of, time, curve, noise in parts]
     rows = plain.with_known(slopes)
     J = plain.split(rows)
     H = linear.gram(rows) + UNIFORM * np.eye(x.size)
-    middle = H.copy()
+    white = _of_discrepancy(likelihood, plain, x, slopes, curves)
+    by_discrepancy = H.copy()
     for W, part in zip(white, J, strict=True):
-        middle += linear.gram(linear.product(W.T, part))
+        by_discrepancy += linear.gram(linear.product(W.T, part))
+    found = _variances(H, by_discrepancy)
+    quantities = [_quantity(likelihood, k) for k in range(len(J))]
+    if all(quantity.against_temperature for quantity in quantities):
+        found = np.minimum(found, _variances(H, _as_one_observation(H, J, quantities)))
+    return np.asarray(np.sqrt(found))
+
+
+def _variances(H: FloatArray, middle: FloatArray) -> FloatArray:
+    """Return the diagonal of the sandwich."""
     half = linear.solve(H, middle)
-    return np.asarray(linear.solve(H, half.T))
+    return np.diag(linear.solve(H, half.T))
+
+
+def _of_discrepancy(
+    likelihood: Likelihood, plain: Likelihood, x: FloatArray, slopes: FloatArray, curves: FloatArray
+) -> list[FloatArray]:
+    """Return W of each signal."""
+    found = estimated(likelihood, x, slopes, curves, MOST_POINTS)
+    parts = zip(found, times(likelihood), likelihood.split(curves), plain.noise, strict=True)
+    return [noise.whiten(of.factor(time, curve)) for of, time, curve, noise in parts]
+
+
+def _as_one_observation(
+    H: FloatArray, J: Sequence[FloatArray], quantities: Sequence[Quantity]
+) -> FloatArray:
+    """Return the middle of the sandwich where the points of a quantity are one observation."""
+    points: Counter[str] = Counter()
+    for quantity, part in zip(quantities, J, strict=True):
+        points[quantity.name] += len(part)
+    middle = H.copy()
+    for quantity, part in zip(quantities, J, strict=True):
+        middle += (points[quantity.name] - 1) * linear.gram(part)
+    return middle
