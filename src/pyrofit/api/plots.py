@@ -23,6 +23,8 @@ COLUMNS = 2
 """Panels in a row."""
 PANEL = (4.6, 3.2)
 """Width and height of a panel [inch]."""
+LONGEST_LABEL = 36
+"""Letters of a line of a label."""
 _DATA: dict[str, Any] = {"linestyle": "none", "marker": ".", "markersize": 3.0}
 _DATA |= {"color": style.MEASURED, "label": "data"}
 
@@ -103,7 +105,8 @@ def residuals(
     ax.plot(x, difference(quantity, off), color=style.COLOURS[1], linewidth=0.8)
     style.zero_line(ax)
     _labels(ax, study, key)
-    words = style.in_lines(f"residual of the {study.experiments[key[0]].words(key[1])}")
+    words = f"residual of the {study.experiments[key[0]].words(key[1])}"
+    words = style.in_lines(words, LONGEST_LABEL)
     ax.set_ylabel(f"{words}\n[{difference_unit(quantity)}]")
 
 
