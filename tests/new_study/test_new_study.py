@@ -14,6 +14,7 @@ from pyrofit.data.fetch import store
 from pyrofit.experiments import KINDS
 from pyrofit.new_study import draft
 from pyrofit.new_study.write import init
+from pyrofit.solver.lower import fractions
 from pyrofit.stages.reading import read_all
 
 ROOT = Path(__file__).parents[2]
@@ -201,7 +202,8 @@ def test_charring_solid_of_one_reaction_has_one(water: float, slabs: bool, folde
     first = study.kinetics if slabs else study.imp
     assert first is not None
     if not water:
-        assert list(study.material.reactions) == ["pyrolysis"]
+        drying = ["drying"] if slabs else []
+        assert list(study.material.reactions) == [*drying, "pyrolysis"]
         assert {*first.estimate} == {"T_p", "E_p", "y"}
     assert ({"rho_c", "k_c", "eps_c"} <= set(study.imp.estimate)) == slabs
 
@@ -214,7 +216,7 @@ def test_charring_solid_gets_parallel_reactions_char_and_its_water(
     char(water)
     study = made("--tga", "tga_10K.csv", *(["--gasification", "slab_25kW.csv"] if slabs else []))
     reactions = study.material.reactions
-    assert list(reactions) == [*(["drying"] if water else []), "early", "main", "late"]
+    assert list(reactions) == [*(["drying"] if water or slabs else []), "early", "main", "late"]
     assert all(reactions[name].products == {"char": "y"} for name in ("early", "main", "late"))
     first = study.kinetics if slabs else study.imp
     assert first is not None
@@ -229,6 +231,55 @@ def test_charring_solid_gets_parallel_reactions_char_and_its_water(
     for name, true in {"y": 0.2 / (1.0 - water), **({"w_w": water} if water else {})}.items():
         lower, upper = study.parameters[name].bounds_si
         assert lower < true < upper
+
+
+@pytest.mark.parametrize("given", [0.0, 0.1])
+def test_water_of_slabs_is_asked_once_where_the_tga_shows_none(given: float, folder: Path) -> None:
+    char(0.0)
+    write("slab_50kW.csv", "Time [s],Mass per area [kg/m2]", SECONDS, 7.0 - np.cumsum(MLR) * 10.0)
+    made("--tga", "tga_10K.csv", "--gasification", "slab_25kW.csv", "slab_50kW.csv")
+    path = Path("wood/wood.yaml")
+    text = path.read_text("utf-8")
+    assert text.count("CHANGE: wood in moist air") == 1
+    path.write_text(
+        text.replace(
+            "value: 0, label: mass fraction of water",
+            f"value: {given}, label: mass fraction of water",
+        ),
+        "utf-8",
+    )
+    study = read_study(path)
+    assert "water" not in study.material.composition
+    values = study.fixed_values() | {"w_e": 0.2, "w_l": 0.1}
+    for name in ("slab_25kW", "slab_50kW"):
+        (layer,) = study.experiments[name].sample.layers  # type: ignore[attr-defined]
+        names = list(study.material.components)
+        shares = dict(zip(names, fractions(layer.composition, names, values)[:, 0], strict=True))
+        assert shares["water"] == given
+        assert shares["early"] == pytest.approx(0.2 * (1.0 - given))
+        assert shares["main"] == pytest.approx(0.7 * (1.0 - given))
+
+
+def test_water_is_not_asked_where_records_show_it_or_no_slab_is_given(folder: Path) -> None:
+    char(0.06)
+    made("--tga", "tga_10K.csv", "--gasification", "slab_25kW.csv")
+    assert "0.06 to 0.12" not in Path("wood/wood.yaml").read_text("utf-8")
+    char(0.0)
+    made("--tga", "tga_10K.csv", name="alone")
+    assert "water" not in Path("alone/alone.yaml").read_text("utf-8")
+
+
+def test_place_of_a_back_temperature_is_asked_once(folder: Path) -> None:
+    lab()
+    header = "Time [s],MLR [g/m2/s],TC back 1 (K),TC back 2 (K)"
+    for flux in (25, 50):
+        write(f"cone_{flux}.csv", header, SECONDS, 1e3 * MLR, BACK_K, BACK_K)
+    made("--tga", "tga_10K.csv", "--gasification", "cone_25.csv", "cone_50.csv")
+    text = Path("wood/wood.yaml").read_text("utf-8")
+    assert text.count("interface_temperature") == 1
+    before, after = text.split("# CHANGE where a layer such as wool", 1)
+    assert before.rindex("back_temperature_1:") > before.rindex("cone_25:\n")
+    assert {"back_temperature_2:", "cone_50:"} <= set(after.split())
 
 
 def test_residue_below_a_tenth_gives_one_reaction(folder: Path) -> None:

@@ -141,6 +141,16 @@ class Kinetics:
         return self.moisture > MOIST
 
     @property
+    def moist_layers(self) -> str:
+        """Composition of slabs that hold water w_w, where the records show none: a mapping."""
+        if self.moist or not self.charring:
+            return ""
+        if self.single:
+            return "{virgin: rest, water: w_w}"
+        dry = (f"{name}: w_{name[0]} * (1 - w_w)" for name in ("early", "late"))
+        return f"{{main: rest, {', '.join(dry)}, water: w_w}}"
+
+    @property
     def moistures(self) -> tuple[float, float]:
         """Limits of the mass fraction of water: half to one and a half times the loss."""
         return round(0.5 * self.moisture, 3), min(round(1.5 * self.moisture, 3), 0.12)

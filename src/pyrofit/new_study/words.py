@@ -18,16 +18,23 @@ _ALIKE = 0.1
 """Share by which two numbers of one test may differ."""
 
 
-def signal_lines(run: Measured) -> list[str]:
-    """Return the lines of the study file on the signals of an experiment and on unused columns."""
+def signal_lines(run: Measured, asks_place: bool = False) -> list[str]:
+    """Return the lines of the study file on the signals of an experiment and on unused columns.
+
+    ``asks_place`` asks once where the thermocouple of the first back temperature was.
+    """
     lines = []
     for repeat in run.repeats:
         lines += [f"        {repeat.name}:", "          signals:"]
-        lines += [f"      {line}" for line in signal_lines(repeat)]
+        lines += [f"      {line}" for line in signal_lines(repeat, asks_place)]
+        asks_place = asks_place and not has_back(repeat)
     if run.repeats:
         return lines
     for found in run.signals:
         lines += _signal(run, found)
+        if asks_place and found.of.before_backing:
+            lines += _place(found)
+            asks_place = False
     lines += [f"# Not used: column {_quoted(name)}: {why}." for name, why in run.left.items()]
     return [f"      {line}" for line in lines]
 
@@ -90,6 +97,21 @@ def _begins(found: Found) -> str:
         f"it starts at {100.0 * found.begins_at:.1f} % of the stated initial mass, as after a "
         "drying, and is divided by its start; `sample_mass_kg` counts the loss before"
     )
+
+
+def has_back(run: Measured) -> bool:
+    """Tell whether an experiment has a back temperature."""
+    signals = [found for one in run.repeats or (run,) for found in one.signals]
+    return any(found.of.before_backing for found in signals)
+
+
+def _place(found: Found) -> list[str]:
+    """Ask where the sensor of a temperature stood."""
+    return [
+        "  # CHANGE where a layer such as wool is given as `backing`. Of a thermocouple between",
+        f"  # sample and wool, make the quantity {found.of.before_backing}, with layer: 1, in",
+        f"  # each such column. This one, {found.quantity}, is that behind all layers.",
+    ]
 
 
 def assumes_area(run: Measured) -> bool:

@@ -24,6 +24,7 @@ from pyrofit.new_study.repeats import grouped
 from pyrofit.new_study.wide_tables import split
 from pyrofit.new_study.words import (
     assumes_area,
+    has_back,
     held_out,
     number_comment,
     said,
@@ -190,7 +191,8 @@ def study_text(name: str, tests: Sequence[Measured]) -> str:
             kinetics=kinetics,
             virgin=_virgin(alone, estimated),
             residue_density=1000 if kinetics.residue <= _FILM else 250,
-            experiments=_experiments([*heated.runs, *slabs.runs]),
+            asks_water=alone is None and kinetics.moist_layers != "",
+            experiments=_experiments([*heated.runs, *slabs.runs], kinetics.moist_layers),
             kinetics_part=heated,
             kinetics_words=_words(heated),
             kinetics_estimate=of_kinetics,
@@ -241,8 +243,11 @@ def _environment() -> Environment:
     )
 
 
-def _experiments(runs: Sequence[Measured]) -> list[str]:
-    """Return the lines of each experiment, from the template of its kind."""
+def _experiments(runs: Sequence[Measured], composition: str) -> list[str]:
+    """Return the lines of each experiment, from the template of its kind.
+
+    ``composition`` is that of slabs, where it differs from the material's.
+    """
     templates, again = _environment(), titles(runs)
     first = _firsts(runs)
     return [
@@ -253,7 +258,8 @@ def _experiments(runs: Sequence[Measured]) -> list[str]:
             number=number_comment(run),
             again=again[run.name],
             facts=files_of(run.kind).facts(run.frames),
-            signals=signal_lines(run),
+            signals=signal_lines(run, asks_place=run.name == first.get("back")),
+            composition=composition,
             shared={name: (place == run.name) for name, place in first.items()},
             area=USUAL_AREA_M2 if assumes_area(run) else None,
         )
@@ -270,6 +276,7 @@ def _firsts(runs: Sequence[Measured]) -> dict[str, str]:
         "flame": [run for run in slabs if "flame" in run.of.description.model_fields],
         "area": [run for run in slabs if assumes_area(run)],
         "repeats": [run for run in runs if run.repeats],
+        "back": [run for run in runs if has_back(run)],
         "baseline": [run for run in runs if "baseline" in run.of.description.model_fields],
     }
     return {name: having[0].name for name, having in sharing.items() if having}

@@ -92,6 +92,8 @@ class Quantity:
     """Whether a prediction is scored relative to the mean measured value."""
     place: Place = "fixed"
     """Where in the sample it is measured: where its name tells, or where a signal tells."""
+    before_backing: str = ""
+    """Quantity that files name alike: that of a sensor between a sample and its backing."""
     released: Released | None = None
     """Mass per area that a record shows to be released [kg/m2]; none = it does not show that."""
     heat: Released | None = None
