@@ -9,7 +9,9 @@ import pytest
 
 from pyrofit.cli import main
 from pyrofit.config import Study, as_study, read_study
+from pyrofit.effects.base import changed
 from pyrofit.experiments.dsc import Dsc
+from pyrofit.model.slab import Backing, SlabExperiment
 from pyrofit.results.files import Results, write_csv
 from pyrofit.stages.measurements import computed
 from pyrofit.steps.preview.compute import OF_REPEATS, all_simulated, preview, windows
@@ -161,6 +163,29 @@ def test_baseline_of_an_instrument_is_a_line_that_leaves_a_usual_specific_heat()
     given = Dsc.model_validate({**described, "baseline": {"level_W_kg": 5.0}})
     told = corrections(Case({"a": given}, frames), list(frames), [])
     assert not [c for c in told if c.words.startswith(words)]
+
+
+def test_thermocouple_before_a_backing_is_that_of_the_interface() -> None:
+    study, frames = smoke()
+    channels = [("slab_25", "back_temperature"), ("slab_60", "back_temperature")]
+    case = case_of(study, {channel: frames[channel] for channel in channels})
+    assert not [c for c in corrections(case, channels, []) if c.cause == "place of a thermocouple"]
+    for name, slab in case.experiments.items():
+        if isinstance(slab, SlabExperiment):
+            backing = Backing(component="wool", thickness_m=0.02)
+            sample = changed(slab.sample, backing=(backing,))
+            case = case.with_experiment(name, changed(slab, sample=sample))
+    (found,) = [
+        c for c in corrections(case, channels[:1], []) if c.cause == "place of a thermocouple"
+    ]
+    assert found.places == ("slab_25", "slab_60")
+    made = found.change(case)
+    for name, signal in channels:
+        moved = made.experiments[name]
+        assert moved.quantity(signal).name == "interface_temperature"
+        assert moved.signals[signal].layer == 1
+        new = made.frames[name, signal][moved.quantity(signal).column]
+        assert new.tolist() == case.frames[name, signal]["back_temperature_K"].tolist()
 
 
 def test_temperatures_in_the_wrong_unit_are_named_first_with_their_window() -> None:

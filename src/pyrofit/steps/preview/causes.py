@@ -40,6 +40,8 @@ EXPLAINS = 0.5
 """Share of the squared difference that a cause must take away."""
 NEAR = 0.1
 """Largest difference that a cause may leave, over the range, of its own records and of all."""
+NEARLY_ALL = 0.9
+"""Share from which on a cause may leave more, up to `FARTHEST`: the rest is of the model."""
 OF_LIMITS = 1.3
 """Factor of the difference of wider limits: more freedom fits better whatever the cause is."""
 BESIDE_BEST, BESIDE_LEAST = 3.0, 0.03
@@ -130,9 +132,10 @@ def likely(
         apart = nearest(study, one.case, one.sets, one.curves).left
         left = _mean_square(apart)
         sizes = [size for (name, _), size in apart.items() if name in cause.places]
-        if max([*sizes, float(np.sqrt(left))]) > NEAR:
-            continue
         explained = 1.0 - left / total
+        allowed = FARTHEST if explained >= NEARLY_ALL else NEAR
+        if max([*sizes, float(np.sqrt(left))]) > allowed:
+            continue
         found.append(Cause(cause.cause, cause.places, cause.words, explained, float(np.sqrt(left))))
     least = min((cause.left for cause in found), default=0.0)
     most = BESIDE_BEST * least + BESIDE_LEAST

@@ -111,6 +111,24 @@ def without_baselines(of: Sequence[Channel]) -> Change:
     return apply
 
 
+def before_backing(of: Sequence[Channel]) -> Change:
+    """Return back temperatures as those between the layers of a sample and its backing."""
+
+    def apply(case: Case) -> Case:
+        for name, signal in of:
+            slab: Any = case.experiments[name]
+            layer = len(slab.sample.layers)
+            named = slab.quantity(signal).before_backing
+            moved = changed(slab.signals[signal], quantity=named, layer=layer)
+            new = changed(slab, signals={**slab.signals, signal: moved})
+            columns = {slab.quantity(signal).column: new.quantity(signal).column}
+            frame = case.frames[name, signal].rename(columns=columns)
+            case = case.with_experiment(name, new).with_frame((name, signal), frame)
+        return case
+
+    return apply
+
+
 def _left(case: Case, name: str) -> float:
     """Return the mass at the end of a test over the initial one, 0 where it is not recorded."""
     for signal in case.signals(name):

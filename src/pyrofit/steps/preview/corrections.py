@@ -12,6 +12,7 @@ from pyrofit.quantities.units import ICE_POINT_K
 from pyrofit.show.text import listed
 from pyrofit.steps.preview.changes import (
     Change,
+    before_backing,
     column_changed,
     heated_at,
     multiplied,
@@ -25,7 +26,7 @@ from pyrofit.steps.preview.reach import Case, Channel
 TEMPERATURE, FLUX, THICKNESS = "unit of temperature", "flux", "thickness"
 CLOCK, RATE, SWAPPED = "clock", "heating rate", "swapped files"
 SAMPLE, SURROUNDINGS, LIMITS = "sample area or mass", "gas or wall temperature", "limits"
-BASELINE = "baseline of the heat flow"
+BASELINE, PLACE = "baseline of the heat flow", "place of a thermocouple"
 ORDER = (
     TEMPERATURE,
     FLUX,
@@ -35,6 +36,7 @@ ORDER = (
     SWAPPED,
     SAMPLE,
     BASELINE,
+    PLACE,
     SURROUNDINGS,
     LIMITS,
 )
@@ -91,6 +93,7 @@ def corrections(
         of = [signal for experiment, signal in outside if experiment == name]
         yield from _of_one(case, name, of, mostly)
     yield from _baselines(case, outside)
+    yield from _places(case, outside)
     yield from _swaps(case, names)
 
 
@@ -245,6 +248,30 @@ def _baselines(case: Case, outside: Sequence[Channel]) -> Iterator[Correction]:
         "give `baseline` two parameters",
         without_baselines(of),
     )
+
+
+def _places(case: Case, outside: Sequence[Channel]) -> Iterator[Correction]:
+    """Yield that thermocouples stood between samples and what is behind them, in all tests."""
+    of = [(e, signal) for e, signal in case.frames if _is_behind(case.experiments[e], signal)]
+    if not set(of) & set(outside):
+        return
+    names = tuple(dict.fromkeys(name for name, _ in of))
+    behind = case.experiments[of[0][0]].quantity(of[0][1])
+    yield Correction(
+        PLACE,
+        names,
+        f"the {behind.title} of {listed(names)} is that between the sample and the backing. Its "
+        f"quantity is then {behind.before_backing}, with the number of layers of the sample as "
+        "`layer`",
+        before_backing(of),
+    )
+
+
+def _is_behind(experiment: Experiment, signal: str) -> bool:
+    """Tell whether a signal is taken as the temperature behind a backing."""
+    if not isinstance(experiment, SlabExperiment) or not experiment.sample.backing:
+        return False
+    return experiment.quantity(signal).before_backing != ""
 
 
 def _swaps(case: Case, names: Sequence[str]) -> Iterator[Correction]:
