@@ -28,6 +28,7 @@ from pyrofit.results.files import Results
 from pyrofit.results.goodness import Goodness
 from pyrofit.results.step import exists
 from pyrofit.show.table import Frames
+from pyrofit.show.water import lacking_water
 from pyrofit.steps.posterior import record as posterior
 from pyrofit.steps.preview import record as preview
 from pyrofit.steps.sensitivity import record as sensitivity
@@ -69,6 +70,8 @@ class Facts:
         Which reactions would describe the masses better, in sentences.
     suspect
         The likeliest cause of records that no set within the limits reaches, in words, or nothing.
+    water
+        Where temperatures show water of which the model has none, in a sentence, or nothing.
     ensemble
         Number of sets drawn from the posterior; 0 where it was not sampled, or did not converge.
     """
@@ -89,6 +92,7 @@ class Facts:
     isoconversional: list[str]
     offers: list[str]
     suspect: str
+    water: str
     ensemble: int
 
 
@@ -123,6 +127,7 @@ def facts_of(study: Study, results: Results, tables: Frames) -> Facts:
         isoconversional=isoconversional.findings(results),
         offers=isoconversional.offers(results),
         suspect=_suspect(study, results),
+        water=_water(study, results),
         ensemble=_ensemble(study, results),
     )
 
@@ -130,6 +135,10 @@ def facts_of(study: Study, results: Results, tables: Frames) -> Facts:
 def _suspect(study: Study, results: Results) -> str:
     causes = preview.read(results).causes if exists(study, results, "preview") else []
     return causes[0].words if causes else ""
+
+
+def _water(study: Study, results: Results) -> str:
+    return lacking_water(preview.read(results)) if exists(study, results, "preview") else ""
 
 
 def _influence(study: Study, results: Results) -> dict[str, float] | None:

@@ -531,6 +531,12 @@ def test_likely_error_of_the_data_is_the_first_next_step(tmp_path: Path) -> None
     assert first.endswith("the flux of slab_25 is 10 times too large.")
 
 
+def test_water_that_the_model_lacks_is_the_first_next_step(tmp_path: Path) -> None:
+    study, results = fake(tmp_path)
+    facts = replace(facts_in(study, results), water="The model has no water.")
+    assert next(next_steps(study, facts)) == "The model has no water."
+
+
 def test_reactions_that_are_offered_stand_among_the_next_steps(tmp_path: Path) -> None:
     study, results = fake(tmp_path)
     facts = replace(facts_in(study, results), offers=["Two reactions predict better."])

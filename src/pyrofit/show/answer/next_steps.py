@@ -38,6 +38,8 @@ def next_steps(study: Study, facts: Facts) -> Iterator[str]:
             "Look at the data first: no set within the limits reaches them. The likeliest cause: "
             f"{facts.suspect}."
         )
+    if facts.water:
+        yield facts.water
     if any(found.repeats for found in facts.goodness.values()):
         yield (
             "Leave out the records that differ from their repeats, or explain them, and run again. "

@@ -14,6 +14,7 @@ from pyrofit.results.recorded import load
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.steps.preview import record
 from pyrofit.steps.preview.causes import is_far, likely, suspects
+from pyrofit.steps.preview.drying import held_up_of
 from pyrofit.steps.preview.fit import nearest
 from pyrofit.steps.preview.reach import (
     NOISE,
@@ -121,6 +122,10 @@ def preview(study: Study, measurements: Measurements, count: int = SETS) -> Prev
             for one in causes
         ],
         unmoved=unmoved(study, alone, sets.first(BASES), reached),
+        held_up=[
+            record.HeldUp(experiment=test, signal=signal, temperature_K=at)
+            for test, signal, at in held_up_of(study, measurements)
+        ],
     )
     return Preview(found, _bands(case, curves, reached))
 

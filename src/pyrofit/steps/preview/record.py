@@ -2,8 +2,8 @@
 
 from pydantic import Field
 
-from pyrofit.results.files import Results
-from pyrofit.results.record import Record, read_record, write_record
+from pyrofit.results.files import Results, write_json
+from pyrofit.results.record import Record, read_record
 
 FOUND, BANDS = "preview.json", "bands.csv"
 """Files of the findings, and of the band of every record."""
@@ -39,6 +39,14 @@ class Likely(Record):
     left: float = Field(description="root mean square difference that is left, over the range [-]")
 
 
+class HeldUp(Record):
+    """A temperature that water holds up, in a slab whose model holds none."""
+
+    experiment: str = Field(description="name of the test")
+    signal: str = Field(description="name of the signal")
+    temperature_K: float = Field(description="where its rise is slowest [K]")
+
+
 class Found(Record):
     """What the data are beside all that the limits allow."""
 
@@ -49,11 +57,13 @@ class Found(Record):
     far: bool = Field(description="no set comes near all records at once")
     causes: list[Likely] = Field(description="likely causes, the likeliest first")
     unmoved: list[str] = Field(description="parameters that move no signal beyond its noise")
+    held_up: list[HeldUp] = Field([], description="temperatures that show water without a model")
 
 
 def write(results: Results, found: Found) -> None:
-    """Write the findings."""
-    write_record(results.of_step("preview", FOUND), found)
+    """Write the findings; temperatures that are held up only where there are any."""
+    left_out = set() if found.held_up else {"held_up"}
+    write_json(results.of_step("preview", FOUND), found.model_dump(exclude=left_out))
 
 
 def read(results: Results) -> Found:

@@ -7,6 +7,7 @@ from pyrofit.quantities.base import Quantity
 from pyrofit.quantities.units import ICE_POINT_K
 from pyrofit.results.files import Results
 from pyrofit.show.text import listed, several
+from pyrofit.show.water import lacking_water
 from pyrofit.steps.preview import record
 from pyrofit.steps.preview.record import Found, Window
 
@@ -34,6 +35,8 @@ def said(study: Study, found: Found) -> Iterator[str]:
     else:
         records = several(len(found.nearest), "record")
         yield f"Data against limits: {found.sets} sets reach the data of all tests ({records})."
+    if (lacking := lacking_water(found)) != "":
+        yield lacking
     if found.unmoved:
         verb = "moves" if len(found.unmoved) == 1 else "each move"
         yield (
