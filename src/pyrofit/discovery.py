@@ -40,13 +40,48 @@ def contents(package: str, folders: Iterable[str], attribute: str) -> dict[str, 
     return found
 
 
+def catalogue(
+    package: str, folders: Iterable[str], attribute: str, group: str, kind: type
+) -> dict[str, Any]:
+    """Return the objects of a catalogue and those that other packages add, by name, sorted.
+
+    Parameters
+    ----------
+    package, folders, attribute
+        As of `contents`.
+    group
+        Group of entry points, as of `added`.
+    kind
+        Class of the objects.
+
+    Raises
+    ------
+    PyrofitError
+        Another package adds a name that exists, or an object of another class.
+    """
+    found = contents(package, folders, attribute)
+    for name, point in added(group).items():
+        if name in found:
+            raise PyrofitError(
+                f"{point.value}: '{name}' is among the {group} of pyrofit already; give it another "
+                f"name in the {point.group} of its package"
+            )
+        found[name] = loaded(point)
+        if not isinstance(found[name], kind):
+            raise PyrofitError(
+                f"{point.value}, which adds '{name}' to {point.group}, is no {kind.__name__}; name "
+                "the object itself, or uninstall its package"
+            )
+    return dict(sorted(found.items()))
+
+
 def added(group: str) -> dict[str, EntryPoint]:
     """Return what other packages add to pyrofit, by name, sorted; nothing is imported.
 
     Parameters
     ----------
     group
-        'commands', 'interface', 'pages', 'reference', 'rules' or 'steps'.
+        Such as 'commands', as `docs/adding.md` lists them.
 
     Raises
     ------

@@ -12,6 +12,7 @@ from types import ModuleType
 from typing import Any
 
 from pyrofit.cost import KINDS
+from pyrofit.discovery import added
 from pyrofit.effects.base import Effect
 from pyrofit.quantities.base import Quantity
 from pyrofit.sources import source_of
@@ -105,19 +106,31 @@ def plugin_files(folders: Sequence[Path]) -> dict[str, Path]:
 
 
 def code_digest(subfolder: str, name: str) -> str:
-    """Return a hash of the code that defines something, of the package or of a plugin.
+    """Return a hash of the code that defines something: in pyrofit, a plugin, or another package.
 
-    Comments and docstrings do not count, the helpers beside the file of a plugin do. It is empty
-    for a cost of the package.
+    Comments and docstrings do not count, the helpers beside the file of a plugin and all files of
+    another package do. It is empty for a cost of pyrofit.
     """
     package = _package(subfolder)
     for folder in package.__path__:
         path = Path(folder) / f"{name}.py"
         if path.is_file():
-            helpers = sorted(path.parent.glob(f"{HELPER}[!_]*.py"))
-            codes = "".join(source_of(p).digest for p in (path, *helpers))
-            return hashlib.sha256(codes.encode()).hexdigest()[:16]
-    return ""
+            return _digest([path, *sorted(path.parent.glob(f"{HELPER}[!_]*.py"))])
+    point = added(subfolder).get(name)
+    return _digest(_files_of(point.module.partition(".")[0])) if point else ""
+
+
+def _digest(files: Sequence[Path]) -> str:
+    codes = "".join(source_of(path).digest for path in files)
+    return hashlib.sha256(codes.encode()).hexdigest()[:16]
+
+
+def _files_of(package: str) -> list[Path]:
+    """Return the Python files of an installed package, or of a module alone."""
+    found = importlib.import_module(package)
+    folders = [Path(folder) for folder in getattr(found, "__path__", ())]
+    files = [path for folder in folders for path in folder.rglob("*.py")]
+    return sorted(files) if folders else [Path(str(found.__file__))]
 
 
 def _package(subfolder: str) -> ModuleType:
@@ -159,7 +172,8 @@ def _files(subfolder: str, folders: Sequence[Path]) -> Iterator[Path]:
 
 def _check_names(subfolder: str, folders: Sequence[Path]) -> None:
     own = list(_package(subfolder).__path__)[:1]
-    known = {module.name: "pyrofit" for module in pkgutil.iter_modules(own)}
+    known = {name: point.module for name, point in added(subfolder).items()}
+    known |= {module.name: "pyrofit" for module in pkgutil.iter_modules(own)}
     if subfolder == "costs":
         known |= dict.fromkeys(KINDS, "pyrofit")
     for path in _files(subfolder, folders):

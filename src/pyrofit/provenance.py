@@ -45,7 +45,13 @@ STUDY = (
     *(module for step in known_steps().values() for module in step.modules),
 )
 """Modules of all steps of a study."""
-FINDERS = frozenset({"pyrofit.discovery.contents", "pyrofit.show.section.section_of"})
+FINDERS = frozenset(
+    {
+        "pyrofit.discovery.catalogue",
+        "pyrofit.discovery.contents",
+        "pyrofit.show.section.section_of",
+    }
+)
 """Functions by which a package finds its files without importing them by name; all count."""
 BY_USE = ("pyrofit.effects", "pyrofit.steps")
 """Packages of which only the used files count, see `results.dependencies`."""

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from pyrofit import discovery
+from pyrofit import discovery, plugins
 from pyrofit.cli.command import _parser
 from pyrofit.discovery import _added, added, loaded
 from pyrofit.errors import PyrofitError
@@ -19,7 +19,17 @@ ROOT = Path(__file__).parents[2]
 SOURCE = ROOT / "src" / "pyrofit"
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 OWN = PROJECT["entry-points"]
-GROUPS = ("commands", "interface", "pages", "reference", "rules", "steps")
+GROUPS = (
+    "commands",
+    "costs",
+    "effects",
+    "interface",
+    "pages",
+    "quantities",
+    "reference",
+    "rules",
+    "steps",
+)
 OTHERS = """
 [project]
 name = "{name}"
@@ -39,9 +49,9 @@ def test_groups_are_those_that_the_package_asks_for_and_the_page_explains() -> N
     files = [p for p in SOURCE.rglob("*") if p.suffix in (".py", ".smk")]
     texts = [path.read_text(encoding="utf-8") for path in files]
     asked = {name for text in texts for name in re.findall(r"added\(\"(\w+)\"\)", text)}
-    assert sorted(asked) == sorted(GROUPS)
+    assert sorted({*asked, *plugins.CATALOGUES}) == sorted(GROUPS)
     page = (ROOT / "docs" / "adding.md").read_text(encoding="utf-8")
-    assert [name for name in GROUPS if f"| `pyrofit.{name}` |" not in page] == []
+    assert [name for name in GROUPS if f"`pyrofit.{name}`" not in page] == []
     assert {group.removeprefix("pyrofit.") for group in OWN} < set(GROUPS)
 
 
@@ -155,3 +165,64 @@ def test_installed_package_adds_a_command_a_step_and_a_name(tmp_path: Path) -> N
 def test_names_of_other_packages_are_among_those_of_the_interface() -> None:
     pf = importlib.import_module("pyrofit")
     assert set(added("interface")) <= set(pf.__all__) == set(dir(pf))
+
+
+CATALOGUE = """
+from dataclasses import replace
+from pyrofit.effects import edge_loss
+from pyrofit.quantities import mlr
+
+LOSS = replace(edge_loss.EFFECT, title="loss through bark")
+RATE = replace(mlr.QUANTITY, title="rate of bark")
+
+
+def worst(target, *, share: float = 1.0):
+    return lambda model: share * abs(model - target.value)
+"""
+LISTED = """
+from pyrofit.cost import known_costs
+from pyrofit.effects import known_effects
+from pyrofit.plugins import code_digest
+from pyrofit.quantities import known_quantities
+found = known_effects()["bark_loss"], known_quantities()["bark_rate"], known_costs()["WORST"]
+digests = [code_digest(*one) for one in (("effects", "bark_loss"), ("costs", "WORST"))]
+print(found[0].name, found[0].title, found[1].title, found[2].__name__, *digests)
+"""
+
+
+def listed(folder: Path, text: str, *lines: str) -> subprocess.CompletedProcess[str]:
+    """Return the run of a session in which a package of this content is installed."""
+    installed(folder, "birch", *lines)
+    (folder / "birch.py").write_text(text)
+    code = f"import sys; sys.path.insert(0, {str(folder)!r})\n{LISTED}"
+    return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+
+
+def test_installed_package_adds_an_effect_a_quantity_and_a_cost(tmp_path: Path) -> None:
+    lines = (
+        *("[pyrofit.effects]", "bark_loss = birch:LOSS"),
+        *("[pyrofit.quantities]", "bark_rate = birch:RATE"),
+        *("[pyrofit.costs]", "WORST = birch:worst"),
+    )
+    run = listed(tmp_path / "first", CATALOGUE, *lines)
+    assert run.returncode == 0, run.stderr
+    *names, first, second = run.stdout.split()
+    assert " ".join(names) == "bark_loss loss through bark rate of bark worst"
+    assert first == second != ""
+    changed = listed(tmp_path / "second", CATALOGUE.replace("1.0", "2.0"), *lines)
+    assert changed.stdout.split()[-1] != second  # so that results of the code before are stale
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("edge_loss = birch:LOSS", "'edge_loss' is among the effects of pyrofit already"),
+        ("bark_loss = birch:RATE", "which adds 'bark_loss' to pyrofit.effects, is no Effect"),
+    ],
+)
+def test_effect_of_another_package_that_breaks_a_rule_is_refused(
+    line: str, said: str, tmp_path: Path
+) -> None:
+    run = listed(tmp_path, CATALOGUE, "[pyrofit.effects]", line)
+    assert run.returncode == 1
+    assert said in run.stderr

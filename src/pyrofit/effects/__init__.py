@@ -1,12 +1,13 @@
 """Physical effects that a model may lack: one file each, named as in a study.
 
-A file defines ``EFFECT``; nothing else needs to know it.
+A file defines ``EFFECT``; nothing else needs to know it. Other packages add effects by entry points
+of the group ``pyrofit.effects``.
 """
 
 from dataclasses import replace
 from functools import cache
 
-from pyrofit.discovery import contents
+from pyrofit.discovery import catalogue
 from pyrofit.effects.base import Effect
 
 
@@ -17,7 +18,7 @@ def known_effects() -> dict[str, Effect]:
 
 @cache
 def _effects_in(folders: tuple[str, ...]) -> dict[str, Effect]:
-    found = contents(__name__, folders, "EFFECT")
+    found = catalogue(__name__, folders, "EFFECT", "effects", Effect)
     return {name: replace(effect, name=name) for name, effect in found.items()}
 
 

@@ -1,12 +1,13 @@
 """Quantities that are measured: one file each, named as in a study.
 
-A file defines ``QUANTITY``; nothing else needs to know it.
+A file defines ``QUANTITY``; nothing else needs to know it. Other packages add quantities by entry
+points of the group ``pyrofit.quantities``.
 """
 
 from dataclasses import replace
 from functools import cache
 
-from pyrofit.discovery import contents
+from pyrofit.discovery import catalogue
 from pyrofit.quantities.base import Quantity
 
 
@@ -30,5 +31,5 @@ def quantities_of(kind: str) -> dict[str, Quantity]:
 
 @cache
 def _quantities_in(folders: tuple[str, ...]) -> dict[str, Quantity]:
-    found = contents(__name__, folders, "QUANTITY")
+    found = catalogue(__name__, folders, "QUANTITY", "quantities", Quantity)
     return {name: replace(quantity, name=name) for name, quantity in found.items()}
