@@ -82,6 +82,15 @@ def test_mass_of_a_slab_that_rises_is_told() -> None:
     assert "the mass rises by 49 %" in said
 
 
+@pytest.mark.parametrize(("start", "told"), [(35.0, True), (7.0, False)])
+def test_a_mass_with_the_holder_is_told(start: float, told: bool) -> None:
+    mass = start - 4.0 * TIME / TIME[-1]
+    frame = pd.DataFrame({"time_s": TIME, "mass_kg_m2": mass})
+    said = suspicions(known_quantities()["mass"], frame)
+    assert [one for one in said if "falls by 11 %, as with its holder" in one] == said
+    assert bool(said) == told
+
+
 def test_init_and_check_tell_the_file(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

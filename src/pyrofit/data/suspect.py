@@ -23,6 +23,8 @@ COLD_K = 268.0
 """A record that starts below this is seldom one of a fire test."""
 _LEAST_FALL, _LEAST_RISE, FALLEN, _ABOVE = 0.01, 0.05, 0.97, 1.02
 """Changes of the mass, and a first value, as fractions of the initial mass."""
+_HEAVY, _FEW = 20.0, 0.3
+"""Mass [kg/m2] of a thick slab, and a share of it that seems small beside one that burns."""
 _SMOOTHED = 9
 JUMP = 0.1
 """Share of the initial mass that no step of a record loses and takes back."""
@@ -153,6 +155,11 @@ def _mass(quantity: Quantity, frame: pd.DataFrame) -> str:
         return (
             f"the mass falls by no more than {100.0 * max(1.0 - end / first, 0.0):.1g} %, so it "
             "shows no reaction. Give the column of the mass, or a longer record"
+        )
+    if quantity.scales[0] == "mass per area" and first > _HEAVY and first - end < _FEW * first:
+        return (
+            f"it starts at {first:.3g} kg/m2 and falls by {100.0 * (1.0 - end / first):.2g} %, as "
+            "with its holder on the load cell. Give the mass of the sample alone, or an `offset`"
         )
     return ""
 
