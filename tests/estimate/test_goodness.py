@@ -1,5 +1,6 @@
 """A fit is tested: right models pass, lasting misfits are found and told."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -138,6 +139,15 @@ def test_a_signal_missed_for_long_by_a_tenth_of_its_range_is_told_whatever_the_n
         found = Goodness(0.5, (signal,))
         assert found.describes == passes
         assert ("for long by more than a tenth" in verdict_words("", found)) != passes
+
+
+def test_signals_that_are_far_off_count_as_missed_beside_one_that_noise_excludes() -> None:
+    of_noise = SignalGoodness("slab", "mass", 1e-3, 0.1, 10.0, 0.01, 1.0, 0.1, ())
+    far = SignalGoodness("slab", "back", 1.0, 5.0, 10.0, 0.1, 1.0, 5.0, ())
+    said = verdict_words("", Goodness(1e-3, (of_noise, far, replace(far, averaged=0.1))))
+    assert "it misses 2 of 3 signals by more than noise does" in said
+    assert "or, for long, by more than a tenth of its range" in said
+    assert "tenth" not in verdict_words("", Goodness(1e-3, (of_noise,)))
 
 
 def test_misfit_to_both_sides_is_told_by_its_rms() -> None:

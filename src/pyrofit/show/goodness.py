@@ -36,10 +36,13 @@ def verdict_words(fit: str, found: Goodness) -> str:
             "more than a tenth of its range. Lasting errors of the tests are as large, so the test "
             "of the noise cannot tell."
         )
-    missed = sum(s.p < LEVEL for s in found.signals)
+    missed = sum(s.p < LEVEL or s.far_off for s in found.signals)
+    beside = " or, for long, by more than a tenth of its range" * any(
+        s.p >= LEVEL and s.far_off for s in found.signals
+    )
     return (
         f"{model} does not describe the tests: it misses {missed or 1} of {signals} by more than "
-        f"noise does (p {_below(found.p)}). "
+        f"noise does (p {_below(found.p)}){beside}. "
         f"The rms misfit is at most {share:.2g} % of a signal's range."
     )
 
