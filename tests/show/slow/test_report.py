@@ -14,6 +14,7 @@ from pyrofit.analysis.best_predicting import best_predicting
 from pyrofit.analysis.estimates import Estimated, estimated
 from pyrofit.config import Study, as_study
 from pyrofit.errors import DataError
+from pyrofit.model.parameters import Parameter
 from pyrofit.results import identification
 from pyrofit.results.files import Results, read_csv, read_json, write_csv, write_json, write_text
 from pyrofit.results.step import write_options
@@ -529,6 +530,17 @@ def test_likely_error_of_the_data_is_the_first_next_step(tmp_path: Path) -> None
     first = next(next_steps(study, facts))
     assert first.startswith("Look at the data first")
     assert first.endswith("the flux of slab_25 is 10 times too large.")
+
+
+def test_share_of_0_is_told_as_such(tmp_path: Path) -> None:
+    study, results = fake(tmp_path)
+    facts = facts_in(study, results)
+    share = Parameter(unit="-", lower=0.0, upper=0.1)
+    study = study.model_copy(update={"parameters": {**study.parameters, "cp": share}})
+    estimates = [replace(e, bound="lower") if e.name == "cp" else e for e in facts.estimates]
+    said = list(next_steps(study, replace(facts, estimates=estimates)))
+    assert said[0].startswith("cp: the data show a share of 0")
+    assert not any("no material" in one or "Widen" in one for one in said)
 
 
 def test_water_that_the_model_lacks_is_the_first_next_step(tmp_path: Path) -> None:

@@ -52,7 +52,12 @@ def next_steps(study: Study, facts: Facts) -> Iterator[str]:
             f"Widen the limits of {listed(wider)} if the material allows it; else look for the "
             "effect that the model lacks."
         )
-    if ends := [name for name, physical in bound.items() if physical]:
+    if none := [e.name for e in ours if e.bound == "lower" and bound[e.name]]:
+        yield (
+            f"{listed(none)}: the data show a share of 0, or records that end below 0. Hold it by "
+            "`fixed: 0`, or correct the zero of the records."
+        )
+    if ends := [name for name, physical in bound.items() if physical and name not in none]:
         yield (
             f"{listed(ends)}: no material goes much beyond this limit. The flux, the heat transfer "
             "or the model is not that of the test."
