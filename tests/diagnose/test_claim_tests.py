@@ -221,6 +221,30 @@ def test_prediction_improves_on_the_whole_and_gets_clearly_worse_nowhere(
 
 
 @pytest.mark.parametrize(
+    ("gains", "expected", "predicts"),
+    [
+        ({"a": 30.0, "b": -2.5}, {"b": 5.3}, True),
+        ({"a": 30.0, "b": -2.5}, {"b": 5.5}, False),
+        ({"a": 30.0, "b": -2.5}, {"b": 1.9}, True),
+        ({"a": 4.0, "b": -2.5}, {"b": 5.3}, False),  # it counts in the sum
+        ({"a": 4.0, "b": -2.5}, {"b": 1.9}, True),
+    ],
+)
+def test_prediction_of_little_power_does_not_reject_an_effect_alone(
+    gains: dict[str, float], expected: dict[str, float], predicts: bool
+) -> None:
+    assert Trust("", 1.0, gains, True, powers=expected).predicts == predicts
+
+
+def test_sign_of_a_deciding_gain_is_wrong_in_a_twentieth_of_all_cases() -> None:
+    """ln p(y | d) - ln p(y | 0) of y = d + noise has the mean |d|^2/2."""
+    d = np.full(8, np.sqrt(2.0 * SETTINGS.deciding_gain / 8))
+    y = d + np.random.default_rng(4).standard_normal((40_000, 8))
+    gain = 0.5 * (np.sum(y**2, axis=1) - np.sum((y - d) ** 2, axis=1))
+    assert np.mean(gain < 0.0) == pytest.approx(0.05, abs=0.004)
+
+
+@pytest.mark.parametrize(
     ("gains", "confirmed"),
     [
         ({"a": 30.0}, True),

@@ -157,6 +157,9 @@ class Settings:
     """Strengths of different experiments disagree if chance is less probable than this."""
     informative_gain: float = 2.0
     """Smallest difference of log scores that counts: odds of 7 to 1."""
+    deciding_gain: float = 5.4
+    """Least expected gain of a prediction that alone can reject an effect: it then errs in at most
+    5 %, for a gain of N(G, 2 G) with a real effect, and of N(-G, 2 G) without one."""
     claimed_weight: float = 0.95
     """Share of the weight of all fitted models that has an effect of a claimed group."""
     far_from_known: float = 2.0

@@ -72,8 +72,10 @@ class Trust:
 
     @property
     def worse(self) -> list[str]:
-        """Predictions that get clearly worse."""
-        return [n for n, gain in self.telling.items() if gain <= -SETTINGS.informative_gain]
+        """Predictions that get clearly worse, of those that can decide alone."""
+        least = SETTINGS.deciding_gain
+        deciding = [n for n in self.gains if self.powers.get(n, least) >= least]
+        return [n for n in deciding if self.gains[n] <= -SETTINGS.informative_gain]
 
     @property
     def outvoted(self) -> bool:

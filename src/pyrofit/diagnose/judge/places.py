@@ -194,7 +194,7 @@ def _against(gain: float, spare: float, about: Trust) -> str:
         return f"the experiments ask for different strengths (p = {about.disagree:.1g})"
     if about.informative and not about.predicts:
         gains = about.telling
-        worst = min(gains, key=lambda name: gains[name])
+        worst = min(about.worse or gains, key=lambda name: gains[name])
         return (
             f"predictions do not improve: log score {gains[worst]:+.1f} for {worst}, "
             f"{sum(gains.values()):+.1f} in all; "
