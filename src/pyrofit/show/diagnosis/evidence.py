@@ -65,8 +65,8 @@ TABLE = Table(
     "that have an effect of the group. Log score: its change by the effect, for each test "
     "predicted from the others, and for the held-out tests. In brackets, the change expected if "
     "the effect is real. A test cannot tell if that is too small beside its noise and its "
-    "uncertain flux, h, thickness and clock; below 5.4 it does not decide alone. Equal strengths: p of the test that all experiments "
-    "give the effect the same strength. Free correction: the best free curve in the place of the "
+    "uncertain flux, h, thickness and clock; below 5.4 it does not decide alone. Equal strengths: "
+    "p of the test that all experiments give the effect the same strength. Free correction: the best free curve in the place of the "
     "effect, and its -2 ln marginal likelihood relative to the effect.",
     headings={
         "weight": "weight of the group",
