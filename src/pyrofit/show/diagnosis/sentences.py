@@ -178,9 +178,10 @@ def _thresholds(found: Diagnosis) -> list[str]:
     said = []
     if any(evidence.predictions for evidence in verdict.evidence):
         gain = setting(found, "informative_gain", 2.0)
+        alone = setting(found, "deciding_gain", gain)
         said.append(
-            f"A claim needs a total rise of the log score by {gain:g}, and no single fall by "
-            f"{gain:g}; one held-out laboratory may be an exception."
+            f"A claim needs a total rise of the log score by {gain:g}. No test that promises "
+            f"{alone:g} or more may fall by {gain:g}; one held-out laboratory may be an exception."
         )
     if any(evidence.agreement is not None for evidence in verdict.evidence):
         level = number(setting(found, "agreement_level", 0.001))
