@@ -61,13 +61,14 @@ TABLE = Table(
     applies=always,
     make=evidence,
     title="Confidence in the result",
-    note="Weight: share of all fitted models, each weighed by its fit and number of parameters, that "
-    "have an effect of the group. Log score: its change by the effect, for each test predicted "
-    "from the others, and for the held-out tests. In brackets, the change expected if the effect "
-    "is real. A test cannot tell if that is too small beside its noise and its uncertain flux, h, "
-    "thickness and clock; below 5.4 it does not decide alone. Equal strengths: p of the test that "
-    "all experiments give the effect the same strength. Free correction: the best free curve in "
-    "the place of the effect, and its -2 ln marginal likelihood relative to the effect.",
+    note="Weight: share of all fitted models, each weighed by its fit and number of parameters, "
+    "that have an effect of the group. Log score: its change by the effect, for each test "
+    "predicted from the others, and for the held-out tests. In brackets, the change expected "
+    "if the effect is real. A test cannot tell if that is too small beside its noise and its "
+    "uncertain flux, h, thickness and clock. Below 5.4 it does not decide alone. Equal "
+    "strengths: p of the test that all experiments give the effect the same strength. Free "
+    "correction: the best free curve in the place of the effect, and its -2 ln marginal "
+    "likelihood relative to the effect.",
     headings={
         "weight": "weight of the group",
         "predictions": "log score of predictions",
