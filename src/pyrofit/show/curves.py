@@ -39,7 +39,7 @@ def compare_curves(
     shown_sets = sets or sets_beside_data(study)
     groups = tests_of(study, pairs)
     canvas, axes = panels_of(study, [group[0] for group in groups])
-    style.letter(axes, [_title(study, group) for group in groups])
+    style.letter(axes, [title_of_test(study, group) for group in groups])
     for ax, group in zip(axes, groups, strict=True):
         for name, signal in group:
             _draw_measured(ax, study, results, name, signal)
@@ -71,7 +71,7 @@ def tests_of(study: Study, pairs: Sequence[Pair]) -> list[list[Pair]]:
     return list(groups.values())
 
 
-def _title(study: Study, group: Sequence[Pair]) -> str:
+def title_of_test(study: Study, group: Sequence[Pair]) -> str:
     """Return the title of a test: the common beginning of the titles of its repeats."""
     titles = [title_of(study, name) for name, _ in group]
     if len(titles) == 1:

@@ -266,3 +266,18 @@ def test_parameter_at_a_limit_without_a_profile_has_no_empty_panel(tmp_path: Pat
     write_csv(profiles_path, curves.iloc[:0])
     (ax,) = profiles(study, results).axes
     assert ax.texts[0].get_text() == "all parameters are at limits"
+
+
+def test_spike_of_a_sensitivity_does_not_hide_the_rest(tmp_path: Path) -> None:
+    study, results = fake(tmp_path)
+    before = FIGURES["sensitivities"].make(study, results).axes[0]
+    path = results.identification("sensitivities.csv")
+    table = read_csv(path)
+    usual = before.get_ylim()
+    assert before.get_xlabel() == "time [s]"
+    many = pd.concat([table] * 20, ignore_index=True)
+    many.loc[many.index[len(table) // 2], "si"] = 1e4 * table["si"].abs().max()
+    write_csv(path, many)
+    after = FIGURES["sensitivities"].make(study, results).axes[0]
+    assert after.get_ylim()[1] < 10.0 * max(np.abs(usual))
+    assert "is cut off" in after.get_xlabel()

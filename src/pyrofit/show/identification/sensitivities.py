@@ -1,14 +1,20 @@
 """Sensitivity of the signals to the parameters."""
 
-from pyrofit.analysis.uses import title_of
+import numpy as np
+
 from pyrofit.config import Study
 from pyrofit.results.files import Results, read_csv
 from pyrofit.results.identification import noise
 from pyrofit.show import style
-from pyrofit.show.drawn import Canvas
+from pyrofit.show.curves import tests_of, title_of_test
+from pyrofit.show.drawn import Axes, Canvas
 from pyrofit.show.figure import Figure
 from pyrofit.show.identification.sentences import correlation
 from pyrofit.show.units import difference, difference_unit
+from pyrofit.solver.arrays import FloatArray
+
+USUAL, SPIKE, ROOM = 0.98, 10.0, 2.0
+"""Quantile of all values that is usual, times it that are a spike, and times it that are shown."""
 
 
 def sensitivities(study: Study, results: Results) -> Canvas:
@@ -16,9 +22,11 @@ def sensitivities(study: Study, results: Results) -> Canvas:
     words = dict.fromkeys(("experiment", "signal", "parameter"), object)
     columns = {**words, **dict.fromkeys(("time_s", "si"), float)}
     frame = read_csv(results.identification("sensitivities.csv"), columns)
-    signals = noise(results).channels
+    channels = {(c.experiment, c.signal): c for c in noise(results).channels}
+    tests = tests_of(study, list(channels))
+    signals = [channels[pairs[0]] for pairs in tests]
     canvas, axes = style.panels(len(signals), 2, style.TWO_COLUMNS, 72.0)
-    style.letter(axes, [title_of(study, c.experiment) for c in signals])
+    style.letter(axes, [title_of_test(study, pairs) for pairs in tests])
     looks = {
         name: {"color": style.colour(i), "linestyle": style.dashes(i + i // len(style.COLOURS))}
         for i, name in enumerate(study.imp.estimate)
@@ -35,7 +43,8 @@ def sensitivities(study: Study, results: Results) -> Canvas:
             curve = here[here["parameter"] == name]
             ax.plot(curve["time_s"], difference(quantity, curve["si"]), **look)
         style.zero_line(ax)
-        ax.set_xlabel("time [s]")
+        cut = _cut_spikes(ax, difference(quantity, here["si"].to_numpy(float)))
+        ax.set_xlabel(f"time [s]{cut}")
         title = experiment.words(signal.signal).replace(" (", "\n(")
         unit = difference_unit(quantity)
         ax.set_ylabel(f"change of {title}\nper search range [{unit}]")
@@ -47,6 +56,16 @@ def sensitivities(study: Study, results: Results) -> Canvas:
         ],
     )
     return canvas
+
+
+def _cut_spikes(ax: Axes, values: FloatArray) -> str:
+    """Cut spikes off, as at burn-out, beside which nothing else would be seen; say how high."""
+    size = np.abs(values)
+    usual, largest = float(np.quantile(size, USUAL)), float(size.max())
+    if not largest > SPIKE * usual > 0.0:
+        return ""
+    ax.set_ylim(-ROOM * usual, ROOM * usual)
+    return f"\na peak up to {largest:.2g} is cut off"
 
 
 FIGURE = Figure(
