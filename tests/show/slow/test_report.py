@@ -96,6 +96,7 @@ def test_first_screen_answers_three_questions_in_order(tmp_path: Path) -> None:
         "limit&#39;s, and the others depend on it.",
         "The data determine 2 of 3 parameters: T_p and k (95 % interval narrower than 20 % of the "
         "search range). Publish them with their intervals. Undetermined: cp (70.0 %, upper limit). "
+        "In brackets: the width of the 95 % interval over the search range. "
         "Do not quote cp alone: other values fit as well.",
         "Assumed, not estimated: h of the front 0 W/(m² K) (slab_25); an insulated back "
         "(slab_25). The step sensitivity tells how much they matter.",

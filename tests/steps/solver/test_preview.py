@@ -267,6 +267,17 @@ def test_repeats_outside_are_told_beside_the_one_that_is_named() -> None:
     assert last == "The same may hold for slab_25_2: repeats of slab_25_1 that lie outside, too."
 
 
+def test_signals_of_one_quantity_are_told_apart() -> None:
+    study, _ = smoke()
+    given = study.model_dump(mode="json", exclude_defaults=True)
+    signals = given["experiments"]["slab_25"]["signals"]
+    signals["lower"] = {**signals["back_temperature"], "quantity": "back_temperature"}
+    left = [Distance(experiment="slab_25", signal="lower", left=0.3)]
+    found = Found(sets=9, unfinished={}, windows=[], nearest=left, far=True, causes=[], unmoved=[])
+    first, *_ = said(as_study(given, "smoke.json"), found)
+    assert first.endswith("from slab_25, back temperature (lower) (30 %).")
+
+
 def with_repeat(factor: float) -> tuple[Study, Frames]:
     """Return the study with a second repeat of a test, whose values are multiplied."""
     study, frames = smoke()

@@ -13,6 +13,7 @@ from pyrofit.show.text import listed, several
 
 SEEN = 0.05
 """Part of a signal's variance from which on an assumption is said to matter."""
+IN_BRACKETS = "In brackets: the width of the 95 % interval over the search range."
 
 
 def publishable(study: Study, facts: Facts) -> Iterator[str]:
@@ -55,7 +56,7 @@ def _by_verdict(ours: list[Estimated]) -> str:
     groups.pop("at a limit", None)
     parts = [f"{grade}: {listed([named(e) for e in of])}" for grade, of in groups.items()]
     if parts:
-        text += f" {'; '.join(parts).capitalize()[:1]}{'; '.join(parts)[1:]}."
+        text += f" {'; '.join(parts).capitalize()[:1]}{'; '.join(parts)[1:]}. {IN_BRACKETS}"
     loose = [e.name for e in ours if e.grade in ("weakly determined", "undetermined")]
     if loose:
         text += f" Do not quote {listed(loose)} alone: other values fit as well."

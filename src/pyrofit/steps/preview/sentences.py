@@ -52,11 +52,12 @@ def _unfinished(found: Found) -> Iterator[str]:
 
 
 def _window(study: Study, window: Window) -> str:
-    quantity = study.experiments[window.experiment].quantity(window.signal)
+    experiment = study.experiments[window.experiment]
+    quantity = experiment.quantity(window.signal)
     side = "above" if window.above else "below"
     return (
-        f"{window.experiment}, {quantity.title}: the data lie {side} all sets from "
-        f"{span(quantity, window.begins, window.ends)}, by up to "
+        f"{window.experiment}, {experiment.words(window.signal)}: the data lie {side} all sets "
+        f"from {span(quantity, window.begins, window.ends)}, by up to "
         f"{size(quantity, window.largest)} ({100.0 * window.share:.0f} % of the range)."
     )
 
@@ -78,7 +79,7 @@ def size(quantity: Quantity, value: float) -> str:
 def _far(study: Study, found: Found) -> Iterator[str]:
     worst = sorted(found.nearest, key=lambda one: -one.left)
     parts = [
-        f"{one.experiment}, {study.experiments[one.experiment].quantity(one.signal).title} "
+        f"{one.experiment}, {study.experiments[one.experiment].words(one.signal)} "
         f"({100.0 * one.left:.0f} %)"
         for one in worst[:4]
         if one.left > LEAST_LEFT
