@@ -5,13 +5,11 @@ from pathlib import Path
 from typing import Any
 
 import pandas as pd
-import pytest
 import yaml
 
 from pyrofit.config import Study, as_study, digest
 from pyrofit.results import dependencies
 from pyrofit.results.files import Results, write_csv, write_json
-from pyrofit.stages import fit, identify, measurements, predict
 
 CONFIG = Path(__file__).parents[2] / "config"
 
@@ -42,21 +40,6 @@ def given(**changes: Any) -> dict[str, Any]:
 
 def study_with(**changes: Any) -> Study:
     return as_study(given(**changes), "smoke.yaml")
-
-
-@pytest.fixture(scope="module")
-def results(tmp_path_factory: pytest.TempPathFactory) -> Results:
-    """Return the results of a tiny run of every step but the searches, which are made by hand."""
-    results = Results(tmp_path_factory.mktemp("results"))
-    study = study_with()
-    measurements.prepare(study, results)
-    fit.fit_kinetics(study, results)
-    identify.identify_kinetics(study, results)
-    by_hand(study, results)
-    fit.collect(study, results)
-    estimated_by_hand(results, parameters("RMSE", 9))
-    predict.predict(study, results)
-    return results
 
 
 SETS = {

@@ -2,10 +2,7 @@
 
 from typing import Any
 
-import pytest
 from stage_studies import given
-
-from pyrofit.config import Study, as_study
 
 SAMPLES = 64
 
@@ -21,8 +18,3 @@ def described(**changes: Any) -> dict[str, Any]:
     del study["kinetics"]
     study["imp"]["kinetics"] = "described"
     return study
-
-
-@pytest.fixture(scope="module")
-def study() -> Study:
-    return as_study(described(), "smoke.yaml")

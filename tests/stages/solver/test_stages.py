@@ -25,6 +25,21 @@ from pyrofit.stages.unfinished import Unfinished
 # --- prepare --------------------------------------------------------------------------------
 
 
+@pytest.fixture(scope="module")
+def results(tmp_path_factory: pytest.TempPathFactory) -> Results:
+    """Return the results of a tiny run of every step but the searches, which are made by hand."""
+    results = Results(tmp_path_factory.mktemp("results"))
+    study = study_with()
+    measurements.prepare(study, results)
+    fit.fit_kinetics(study, results)
+    identify.identify_kinetics(study, results)
+    by_hand(study, results)
+    fit.collect(study, results)
+    estimated_by_hand(results, parameters("RMSE", 9))
+    predict.predict(study, results)
+    return results
+
+
 def test_synthetic_measurements_are_equal_for_equal_seeds() -> None:
     first, again = measurements.computed(study_with()), measurements.computed(study_with())
     assert set(first) == {

@@ -36,6 +36,11 @@ def command(results: Results, folder: Path, *options: str) -> list[str]:
 
 
 @pytest.fixture(scope="module")
+def study() -> Study:
+    return as_study(described(), "smoke.yaml")
+
+
+@pytest.fixture(scope="module")
 def made(study: Study, tmp_path_factory: pytest.TempPathFactory) -> tuple[Results, str]:
     """The analysis of a small sample by the command, and what it prints."""
     folder = tmp_path_factory.mktemp("sensitivity")
