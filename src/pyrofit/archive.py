@@ -67,7 +67,7 @@ def write_archive(study: Study, results: Results, given: Sequence[Path], project
     entries |= {inside: _bytes(Path(file)) for file, inside in of_programs.items()}
     for inside, path in plugin_files([Path(folder) for folder in study.plugins]).items():
         entries[f"plugins/{inside}"] = _bytes(path)
-    for path in _results(study, results):
+    for path in result_files(study, results):
         name = path.relative_to(results.root).as_posix()
         entries[f"results/{name}"] = _without_macfp(study, path)
     entries |= {f"software/{name}": content for name, content in software(project).items()}
@@ -145,7 +145,7 @@ def _study_file(study: Study, own: Mapping[str, str]) -> str:
     return as_yaml(keys, COMMENT)
 
 
-def _results(study: Study, results: Results) -> Iterator[Path]:
+def result_files(study: Study, results: Results) -> Iterator[Path]:
     """Yield the files of results that go into the archive."""
     measured = {
         results.measurement(name, quantity)

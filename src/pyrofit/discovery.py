@@ -88,7 +88,7 @@ def added(group: str) -> dict[str, EntryPoint]:
     PyrofitError
         Two packages add the same name, or a package lies beside pyrofit without being installed.
     """
-    return _added(_HERE).get(f"{_OWN}.{group}", {})
+    return entries_beside(_HERE).get(f"{_OWN}.{group}", {})
 
 
 def loaded(point: EntryPoint) -> Any:
@@ -109,7 +109,7 @@ def loaded(point: EntryPoint) -> Any:
 
 
 @cache
-def _added(folder: Path) -> dict[str, dict[str, EntryPoint]]:
+def entries_beside(folder: Path) -> dict[str, dict[str, EntryPoint]]:
     """Return entry points by group and name, those of a clone from its ``pyproject.toml``.
 
     Those that were installed with a clone are as old as the installation.

@@ -146,7 +146,7 @@ def _simulated(
     threads: int = 1,
 ) -> list[Curves]:
     values, sets = substance.values, substance.sets
-    case = _lower(experiment, substance.of(experiment.sample), accuracy)
+    case = lowered(experiment, substance.of(experiment.sample), accuracy)
     located = lower_places(experiment.sample, requests, values, sets)
 
     def run(factors: FloatArray | None, asked: Mapping[str, Request]) -> Runs:
@@ -169,7 +169,8 @@ def _numerics(accuracy: Accuracy) -> Numerics:
     )
 
 
-def _lower(experiment: SlabExperiment, substance: Substance, accuracy: Accuracy) -> Case:
+def lowered(experiment: SlabExperiment, substance: Substance, accuracy: Accuracy) -> Case:
+    """Return an experiment on a slab as arrays for the kernel, a row for each set of values."""
     sample = experiment.sample
     material, values, sets = substance.material, substance.values, substance.sets
     properties = substance.properties(sample.absorption_length_m, sample.density_factor)

@@ -134,7 +134,7 @@ def export_spyro(
                 continue
             time, rate = found
         size = own_layers(slab.sample, chosen.material, chosen.values)[0].thickness_m
-        flux = _strongest(slab.front.flux_W_m2, chosen.values)
+        flux = strongest(slab.front.flux_W_m2, chosen.values)
         curves.append(Curve(name, flux, size, time, rate))
     if not curves:
         raise StudyError(
@@ -175,7 +175,7 @@ def _spyro_text(
     return comment + "\n" + write_all([gas_line(1e-3 * max(burnt, default=0.0)), *lines])
 
 
-def _strongest(flux: OverTime, values: Values) -> float:
+def strongest(flux: OverTime, values: Values) -> float:
     """Return the largest flux [W/m2]: before, a shield may be closed."""
     table = flux.value if isinstance(flux, TimeTable) else (flux,)
     return max(float(value_of(q, values)) for q in table)

@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 
 from pyrofit import discovery, plugins
-from pyrofit.cli.command import _parser
-from pyrofit.discovery import _added, added, loaded
+from pyrofit.cli.command import whole_parser
+from pyrofit.discovery import added, entries_beside, loaded
 from pyrofit.errors import PyrofitError
 
 ROOT = Path(__file__).parents[2]
@@ -40,9 +40,9 @@ name = "{name}"
 
 @pytest.fixture(autouse=True)
 def _asked_anew() -> Iterator[None]:
-    _added.cache_clear()
+    entries_beside.cache_clear()
     yield
-    _added.cache_clear()
+    entries_beside.cache_clear()
 
 
 def test_groups_are_those_that_the_package_asks_for_and_the_page_explains() -> None:
@@ -78,16 +78,16 @@ def package(folder: Path, name: str) -> None:
 def test_package_that_the_installation_does_not_know_is_an_error(tmp_path: Path) -> None:
     package(tmp_path, "pyrofit_wood")
     with pytest.raises(PyrofitError, match=r"pyrofit_wood: .* install pyrofit again"):
-        _added(tmp_path)
+        entries_beside(tmp_path)
 
 
 def test_project_of_another_name_is_not_read(tmp_path: Path) -> None:
     text = OTHERS.format(name="wood", line='wood = "wood:add"')
     (tmp_path / "pyproject.toml").write_text(text)
-    assert "wood" not in _added(tmp_path / "src").get("pyrofit.commands", {})
+    assert "wood" not in entries_beside(tmp_path / "src").get("pyrofit.commands", {})
     (tmp_path / "pyproject.toml").write_text(text.replace('"wood"\n', '"pyrofit"\n', 1))
-    _added.cache_clear()
-    assert _added(tmp_path / "src")["pyrofit.commands"]["wood"].module == "wood"
+    entries_beside.cache_clear()
+    assert entries_beside(tmp_path / "src")["pyrofit.commands"]["wood"].module == "wood"
 
 
 def installed(folder: Path, name: str, *lines: str) -> None:
@@ -105,7 +105,7 @@ def test_two_packages_that_add_one_name_are_refused(
         installed(tmp_path, name, "[pyrofit.commands]", f"dry = {name}:add")
     monkeypatch.syspath_prepend(tmp_path)
     with pytest.raises(PyrofitError, match=r"'dry' of pyrofit\.commands is both .*uninstall one"):
-        _added(SOURCE.parent)
+        entries_beside(SOURCE.parent)
 
 
 def test_package_that_cannot_be_imported_is_named(
@@ -114,7 +114,7 @@ def test_package_that_cannot_be_imported_is_named(
     installed(tmp_path, "birch", "[pyrofit.commands]", "dry = no_such_birch:add")
     monkeypatch.syspath_prepend(tmp_path)
     with pytest.raises(PyrofitError, match="no_such_birch:add, which adds 'dry' to"):
-        _parser()
+        whole_parser()
 
 
 STEP = """

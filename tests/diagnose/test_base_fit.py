@@ -9,7 +9,7 @@ from small import CHANNELS, LIMITS, SD, measured, study
 
 from pyrofit.config import candidate_effects
 from pyrofit.diagnose.base.descent import descend
-from pyrofit.diagnose.base.fit import _starts, set_up
+from pyrofit.diagnose.base.fit import set_up, start_points
 from pyrofit.diagnose.base.model import model_of
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects import known_effects
@@ -29,7 +29,7 @@ def series() -> Measurements:
 
 def test_starts_are_spread_within_the_limits_by_the_seed(series: Measurements) -> None:
     base = set_up(study(), series).base.model.base
-    first, again, other = _starts(base, 5), _starts(base, 5), _starts(base, 6)
+    first, again, other = start_points(base, 5), start_points(base, 5), start_points(base, 6)
     points = np.array(first)
     assert points.shape == (1 + SETTINGS.base_starts, len(LIMITS))
     assert first[0].tolist() == [0.5] * len(LIMITS)
@@ -44,7 +44,7 @@ def test_starts_are_spread_within_the_limits_by_the_seed(series: Measurements) -
 
 def test_known_parameters_start_at_what_is_known(series: Measurements) -> None:
     base = set_up(study(known=KNOWN), series).base.model.base
-    points = np.array(_starts(base, 5))
+    points = np.array(start_points(base, 5))
     names = base.likelihood.problem.names
     problem = base.likelihood.problem
     for name, known in KNOWN.items():
@@ -75,7 +75,7 @@ def test_knowledge_is_in_si_units_and_pulls_its_parameter(series: Measurements) 
 
 def test_fit_of_the_base_is_the_lowest_of_all_its_starts(series: Measurements) -> None:
     trial = set_up(study(), series).base
-    for x in _starts(trial.model.base, 11)[:6]:
+    for x in start_points(trial.model.base, 11)[:6]:
         assert trial.fit.chi2 < descend(trial.model, x).chi2 + 0.1
 
 

@@ -8,7 +8,7 @@ from small import measured, study, truth_of
 from pyrofit.diagnose.base.descent import descend
 from pyrofit.diagnose.base.fit import set_up
 from pyrofit.diagnose.base.model import model_of, strength_of
-from pyrofit.diagnose.diagnosis import Diagnosis, _undecided, examine
+from pyrofit.diagnose.diagnosis import Diagnosis, examine, undecided_models
 from pyrofit.diagnose.search.step import SearchContext
 from pyrofit.diagnose.search.stepwise import search
 from pyrofit.effects import known_effects
@@ -70,7 +70,7 @@ def test_fit_of_the_base_is_as_good_as_a_descent_from_the_truth() -> None:
 def test_no_experiment_is_proposed_where_nothing_is_missing(diagnosed: Diagnosed) -> None:
     nothing = diagnosed("nothing")
     assert len(nothing.search.trials) > 1
-    assert _undecided(nothing.search, nothing.verdict) == []
+    assert undecided_models(nothing.search, nothing.verdict) == []
 
 
 def test_twin_that_hides_nothing_lacks_nothing(diagnosed: Diagnosed) -> None:

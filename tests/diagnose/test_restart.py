@@ -8,7 +8,7 @@ import pytest
 from linear import TOTAL, column_of
 
 from pyrofit.diagnose.base.descent import descend, refreshed
-from pyrofit.diagnose.base.fit import _apart
+from pyrofit.diagnose.base.fit import apart
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import Base, model_of, strength_of
 from pyrofit.diagnose.search.restart import from_other_starts, restarted
@@ -95,5 +95,5 @@ def test_leading_effects_are_fitted_from_other_starts_where_they_misfit(base: Ba
 
 
 def test_ends_of_different_valleys_are_other_starts() -> None:
-    assert _apart([10.0, 10.1, 10.3, 40.0, 40.2, 90.0]) == [0, 3, 5]
-    assert _apart([10.0]) == [0]
+    assert apart([10.0, 10.1, 10.3, 40.0, 40.2, 90.0]) == [0, 3, 5]
+    assert apart([10.0]) == [0]

@@ -11,20 +11,20 @@ from linear import POINTS, TOTAL, column_of, fit_with, moved
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import name_of, strength_of
 from pyrofit.diagnose.base.prediction import HELD_OUT
-from pyrofit.diagnose.diagnosis import _undecided
+from pyrofit.diagnose.diagnosis import undecided_models
 from pyrofit.diagnose.judge import other_terms, places
 from pyrofit.diagnose.judge.claim_tests import Trust
 from pyrofit.diagnose.judge.final_fits import final_fits
 from pyrofit.diagnose.judge.findings import Judged, Verdict
-from pyrofit.diagnose.judge.places import _against, alternatives, exchanges, without_each
-from pyrofit.diagnose.judge.verdict import ONE_FLUX, _doubts, judge
+from pyrofit.diagnose.judge.places import alternatives, exchanges, without_each, words_against
+from pyrofit.diagnose.judge.verdict import ONE_FLUX, doubts_of, judge
 from pyrofit.diagnose.result.candidates import candidates
 from pyrofit.diagnose.result.verdict_text import form_of, sentences
 from pyrofit.diagnose.search import step_start
 from pyrofit.diagnose.search.step import SearchContext
 from pyrofit.diagnose.search.step_start import step_from as look_first
+from pyrofit.diagnose.search.stepwise import Pass as Pass
 from pyrofit.diagnose.search.stepwise import Search, search
-from pyrofit.diagnose.search.stepwise import _Pass as Pass
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects import known_effects
 from pyrofit.results.diagnosis_candidates import OfCandidate
@@ -212,7 +212,7 @@ def test_repeats_at_one_flux_are_one_flux() -> None:
     likelihood = replace(base.likelihood, problem=replace(problem, runs=runs))
     model = replace(found.base.model, base=replace(base, likelihood=likelihood))
     rounds = (replace(found.rounds[0], start=replace(found.base, model=model)),)
-    assert ONE_FLUX in _doubts(replace(found, rounds=rounds), ())
+    assert ONE_FLUX in doubts_of(replace(found, rounds=rounds), ())
 
 
 # --- multiple -------------------------------------------------------------------------------
@@ -343,7 +343,7 @@ def test_effect_that_two_others_replace_as_well_is_not_certain() -> None:
     assert said.startswith(start)
     assert said.endswith(end)
     assert set(said[len(start) : -len(end)].split(" together with ")) == slopes
-    tried = {frozenset(trial.effects) for trial in _undecided(verdict.search, verdict)}
+    tried = {frozenset(trial.effects) for trial in undecided_models(verdict.search, verdict)}
     assert tried == {frozenset({"glass_transition"}), frozenset({"c_T", "k_T"})}
 
 
@@ -415,7 +415,7 @@ def test_effect_behind_a_rejected_one_is_not_claimed_where_misfit_is_left(
 
     real = places.trust
     monkeypatch.setattr(places, "trust", trusted)
-    monkeypatch.setattr(places, "_against", against)
+    monkeypatch.setattr(places, "words_against", against)
     monkeypatch.setattr(places, "strengths_at_limit", lambda trial: list(trial.effects))
     unknown = np.tile(np.repeat([1.5, -1.5], POINTS // 2), 4)
     columns = alike("k_T", "c_T", share=0.001)
@@ -463,8 +463,8 @@ def test_effect_that_makes_predictions_worse_is_rejected_with_their_scores() -> 
     finding = verdict_on(found).findings[0]
     judged = finding.judged[0]
     worse = replace(judged.trust, gains={"slab_25": 30.0, "slab_60": -4.0})
-    assert _against(100.0, found.spare, judged.trust) == ""
-    said = _against(100.0, found.spare, worse)
+    assert words_against(100.0, found.spare, judged.trust) == ""
+    said = words_against(100.0, found.spare, worse)
     assert "log score -4.0 for slab_60, +26.0 in all" in said
     none_left = replace(finding, judged=(Judged("k_T", judged.trial, worse, said),))
     assert (none_left.kept, none_left.effects, none_left.predicted) == ([], [], False)
@@ -481,7 +481,7 @@ def test_claim_that_predicts_what_is_held_out_no_better_is_open_and_says_so() ->
     assert unsure.kept == [little]
     assert not unsure.predicted
     assert not unsure.sure
-    (said,) = _doubts(found, [unsure])
+    (said,) = doubts_of(found, [unsure])
     assert said.startswith(
         "with slope of the conductivity, the log score of held-out signals gains"
     )
@@ -511,7 +511,7 @@ def test_next_experiment_tells_apart_the_two_best_models_of_different_effects() 
     found = searched(y, ELSEWHERE, EFFECTS)
     verdict = verdict_on(found)
     assert verdict.kind == "partly"
-    one, other = _undecided(verdict.search, verdict)
+    one, other = undecided_models(verdict.search, verdict)
     assert set(one.effects) != set(other.effects)
     assert one.penalised == min(trial.penalised for trial in found.trials)
     between = [t for t in found.trials if one.penalised < t.penalised < other.penalised]
@@ -520,7 +520,7 @@ def test_next_experiment_tells_apart_the_two_best_models_of_different_effects() 
 
 def test_next_experiment_tells_apart_all_that_is_left_open() -> None:
     verdict = verdict_on(searched(planted(k_T=0.8), alike("k_T", "heater_ramp")))
-    left = _undecided(verdict.search, verdict)
+    left = undecided_models(verdict.search, verdict)
     assert {trial.effects for trial in left} == {("heater_ramp",), ("k_T",)}
 
 

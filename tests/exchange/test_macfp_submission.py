@@ -11,7 +11,7 @@ from pyrofit.config import read_study
 from pyrofit_exchange.macfp.numeric import numeric
 from pyrofit_exchange.macfp.predict import WOOD_CASES, material, simulate_case
 from pyrofit_exchange.macfp.read import read_set
-from pyrofit_exchange.macfp.readme import _absent
+from pyrofit_exchange.macfp.readme import absent_parts
 from pyrofit_exchange.macfp.schema import Composition, Kinetics, StrictSet
 
 SMOKE = Path(__file__).parents[2] / "config" / "smoke.yaml"
@@ -81,7 +81,7 @@ def test_water_of_other_samples_is_told_to_be_absent() -> None:
         names=("wood", "char", "water"), fractions=(1.0, 0.0, 0.0)
     )
     strict = StrictSet.model_construct(composition=composition, kinetics=kinetics)
-    assert _absent(strict) == ["water"]
+    assert absent_parts(strict) == ["water"]
 
 
 def test_parameters_with_a_given_value_are_told_so(tmp_path: Path) -> None:

@@ -21,7 +21,7 @@ from pyrofit_exchange.fds.parse import read_namelists
 from pyrofit_exchange.fds.predicted import predict_heated
 from pyrofit_exchange.fitted_forms import power_law, quadratic
 from pyrofit_exchange.gpyro.data import Data, heated_data, slab_data
-from pyrofit_exchange.programs import _strongest
+from pyrofit_exchange.programs import strongest
 from pyrofit_exchange.spyro import Curve, ignition, ramp
 from pyrofit_exchange.steps import steps_of
 from pyrofit_exchange.thermakin.components import Components, component_file
@@ -239,7 +239,7 @@ def test_a_reference_curve_begins_at_ignition_and_holds_all_heat() -> None:
 
 def test_the_flux_of_a_test_behind_a_shield_is_that_without_it() -> None:
     table = TimeTable(time_s=(0.0, 90.0, 90.0), value=(3700.0, 3700.0, "q"))
-    assert _strongest(table, {"q": 25000.0}) == 25000.0
+    assert strongest(table, {"q": 25000.0}) == 25000.0
 
 
 @pytest.mark.parametrize(

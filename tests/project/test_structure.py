@@ -423,6 +423,14 @@ def test_powers_of_arrays_are_products_or_of_numerics() -> None:
     assert {n for n in found if not n.startswith("solver/kernels/")} <= set(NUMBERS_TO_A_POWER)
 
 
+def test_tests_import_no_other_test_and_no_private_name() -> None:
+    for path in (ROOT / "tests").rglob("*.py"):
+        for name in imported(path):
+            assert not name.startswith(("test_", "conftest.")), f"{path}: {name}"
+            private = name.startswith("pyrofit") and re.search(r"\._[^_]", name)
+            assert not private, f"{path}: {name}"
+
+
 def test_library_never_prints_or_exits() -> None:
     # Progress of the searches goes to standard error, where the command line keeps its log.
     for path in modules():

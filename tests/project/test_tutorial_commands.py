@@ -75,7 +75,7 @@ def test_commands_of_pyrofit_and_their_options_exist(page: str) -> None:
     found = commands(page, "pyrofit")
     assert len(found) >= 1 or page == "tutorial_diagnosis"
     for words in found:
-        given = vars(parsed(command._parser(), words))
+        given = vars(parsed(command.whole_parser(), words))
         for key in ("study", "profile"):
             if given.get(key):
                 assert is_there(str(given[key]), page), shlex.join(words)
@@ -96,7 +96,7 @@ def test_calls_of_snakemake_name_files_rules_and_options_that_exist(page: str) -
 
 def test_wrong_command_line_is_found() -> None:
     with pytest.raises(pytest.fail.Exception, match="unrecognized arguments: --sett"):
-        parsed(command._parser(), ["export", "fds", "config/smoke.yaml", "--sett", "truth"])
+        parsed(command.whole_parser(), ["export", "fds", "config/smoke.yaml", "--sett", "truth"])
     # A target after --configfile would be read as one more file.
     given = parsed(get_argument_parser(), ["--configfile", "config/smoke.yaml", "archive"])
     assert not all(is_there(str(path), "tutorial_cluster") for path in given.configfile)

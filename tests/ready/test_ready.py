@@ -15,7 +15,7 @@ from pyrofit.estimate.problem import Evaluation
 from pyrofit.ready import machine, plan, report, slurm
 from pyrofit.ready.data import data
 from pyrofit.ready.finding import Check, Finding, Situation
-from pyrofit.ready.timing import _estimate, duration
+from pyrofit.ready.timing import duration, estimate_of
 from pyrofit.ready.whole_run import Work
 from pyrofit.solver.arrays import Status
 
@@ -252,14 +252,14 @@ def test_jobs_are_grouped_as_the_workflow_groups_them(
 def test_duration_is_that_of_steps_alone_and_of_the_others_over_cores() -> None:
     part = plan.Part("RMSE", alone=1000.0, together=4000.0, jobs=10)
     beside = [Work(7.0, alone=True), Work(4.0, jobs=2)]
-    found = _estimate(Situation(None, Path(), 2), [(part, 0.02, 0.01)], beside, 3.0)
+    found = estimate_of(Situation(None, Path(), 2), [(part, 0.02, 0.01)], beside, 3.0)
     assert found.level == "ok"
     # Alone 7 s + 3 s; the others 2 (1000 x 0.02 s + 4000 x 0.01 s) + 4 s + 12 x 3 s = 160 s.
     assert found.text.startswith(
         "about 90 s for the run on 2 cores. 5,000 model calls x 12 ms are for the searches, 11 s "
         "for their analysis and figures, 13 x 3 s to begin a step."
     )
-    slow = _estimate(Situation(None, Path(), 2), [(part, 20.0, 40.0)], beside, 3.0)
+    slow = estimate_of(Situation(None, Path(), 2), [(part, 20.0, 40.0)], beside, 3.0)
     assert (slow.level, "docs/cluster.md" in slow.text) == ("warning", True)
 
 

@@ -8,7 +8,7 @@ from scipy.stats import spearmanr
 from pyrofit.analysis import rescoring
 from pyrofit.cost import Target
 from pyrofit.estimate.measures import fall, peak, rise
-from pyrofit.steps.rescore.sentences import _alike, _own, _regret
+from pyrofit.steps.rescore.sentences import alike_costs, own_costs, regret_of
 
 SCORES = pd.DataFrame(
     {"a": [1.0, 2.0, 3.0, 4.0], "b": [10.0, 20.0, 40.0, 30.0], "c": [4.0, 3.0, 2.0, 1.0]}
@@ -123,28 +123,28 @@ def test_moments_of_a_curve() -> None:
 
 
 def test_sentences_name_who_agrees_and_who_does_not() -> None:
-    assert _alike(matrix(ab=0.99, bc=0.4, ac=0.5)) == [
+    assert alike_costs(matrix(ab=0.99, bc=0.4, ac=0.5)) == [
         "The sets are ranked alike (rank correlation 0.95 or more) by a and b.",
         "c ranks them unlike any other.",
         "b and c agree least (rank correlation 0.40).",
     ]
-    assert _alike(matrix(ab=0.3))[0] == "a and b rank them unlike each other."
-    assert _alike(matrix(ab=0.99)) == [
+    assert alike_costs(matrix(ab=0.3))[0] == "a and b rank them unlike each other."
+    assert alike_costs(matrix(ab=0.99)) == [
         "The sets are ranked alike (rank correlation 0.95 or more) by a and b.",
         "a and b agree least (rank correlation 0.99).",
     ]
-    assert _alike(pd.DataFrame([[1.0]], index=["a"], columns=["a"])) == []
+    assert alike_costs(pd.DataFrame([[1.0]], index=["a"], columns=["a"])) == []
 
 
 def test_sentences_on_regret_name_row_and_column() -> None:
     table = rescoring.excess(SCORES)
-    assert _own(table.loc[["a", "c"], ["a", "c"]]) == [
+    assert own_costs(table.loc[["a", "c"], ["a", "c"]]) == [
         "The set with the lowest a is 300 % above the lowest c, the largest excess among the cost "
         "functions of the study."
     ]
-    assert _own(table.loc[["a"], ["a"]]) == []
-    assert _own(rescoring.excess(SCORES.assign(a=0.0, b=0.0, c=0.0))) == []
-    assert _regret(rescoring.better(SCORES[["b", "c"]])) == [
+    assert own_costs(table.loc[["a"], ["a"]]) == []
+    assert own_costs(rescoring.excess(SCORES.assign(a=0.0, b=0.0, c=0.0))) == []
+    assert regret_of(rescoring.better(SCORES[["b", "c"]])) == [
         "The largest disagreement: c finds 75 % of the sets better than the set with the lowest b."
     ]
-    assert _regret(rescoring.better(SCORES[["a", "b"]])) == []
+    assert regret_of(rescoring.better(SCORES[["a", "b"]])) == []

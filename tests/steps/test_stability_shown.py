@@ -11,7 +11,7 @@ from diagnosis_made import diagnosed
 from report_pages import Page, written
 from shown_studies import described
 
-from pyrofit.archive import _results as archived
+from pyrofit.archive import result_files as archived
 from pyrofit.cli import main
 from pyrofit.config import Study
 from pyrofit.errors import DataError

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from pyrofit.cli import main
-from pyrofit.cli.command import _parser
+from pyrofit.cli.command import whole_parser
 from pyrofit.cli.page import commands_page
 from pyrofit.config import Study, as_study, digest, read_study
 from pyrofit.config.reference import reference_page
@@ -85,7 +85,7 @@ def test_step_counts_in_the_fingerprint_of_a_study(name: str) -> None:
 @pytest.mark.parametrize("name", STEPS)
 def test_step_is_a_target_and_stands_on_the_page_of_commands(name: str) -> None:
     assert name in targets()
-    assert f"## `pyrofit {name}`\n" in commands_page(_parser())
+    assert f"## `pyrofit {name}`\n" in commands_page(whole_parser())
 
 
 @pytest.mark.parametrize("name", STEPS)
@@ -108,7 +108,7 @@ def test_no_list_names_a_step(name: str) -> None:
 @pytest.mark.parametrize("name", STEPS)
 def test_step_is_a_command_with_its_options(name: str, capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit):
-        _parser().parse_args([name, "--help"])
+        whole_parser().parse_args([name, "--help"])
     said = capsys.readouterr().out
     options = known_steps()[name].options
     for option in [] if options is None else options.model_fields:

@@ -41,7 +41,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
     # Snakemake asks for as many as a job has cores.
     os.environ["OPENBLAS_NUM_THREADS"] = "1"
     try:
-        given = _parser().parse_args(arguments)
+        given = whole_parser().parse_args(arguments)
     except PyrofitError as error:
         print(f"error: {error}", file=sys.stderr)
         return 2
@@ -133,7 +133,8 @@ def _interruptible() -> Iterator[list[int]]:
             signal.signal(number, old)
 
 
-def _parser() -> argparse.ArgumentParser:
+def whole_parser() -> argparse.ArgumentParser:
+    """Return the parser of all commands, those of other packages among them."""
     parser = Parser(
         prog="pyrofit",
         description="Estimate the parameters of a pyrolysis model from measurements. A whole study "

@@ -95,7 +95,7 @@ def examine(
             content,
             profiles(end, processes),
             _probes(found, verdict, processes),
-            next_experiments(_undecided(found, verdict), processes),
+            next_experiments(undecided_models(found, verdict), processes),
         )
     tell(content.verdict.words)
     return Diagnosis(searched, found, end, verdict, content, record.curves(found, final))
@@ -163,7 +163,7 @@ def _probes(found: Search, verdict: Verdict, processes: int) -> list[Probe]:
     return probes(found.end, processes) if verdict.kind in ("partly", "unknown") else []
 
 
-def _undecided(found: Search, verdict: Verdict) -> list[FittedModel]:
+def undecided_models(found: Search, verdict: Verdict) -> list[FittedModel]:
     """Return the models that are not told apart, or else the two best of different effects.
 
     None where nothing is missing.

@@ -53,15 +53,28 @@ def duration(situation: Situation) -> Iterator[Finding]:
     took = time.perf_counter() - start
     yield Finding("ok", "compiler", f"the solver runs; compiling and timing took {took:.0f} s")
     start = START_ON_SLURM_S if situation.on_slurm else start_of_a_step()
-    yield _estimate(situation, timed, beside, start)
+    yield estimate_of(situation, timed, beside, start)
 
 
-def _estimate(
+def estimate_of(
     situation: Situation,
     timed: list[tuple[Part, float, float]],
     beside: list[Work],
     start: float,
 ) -> Finding:
+    """Return the estimated duration of a run, and its share in model calls.
+
+    Parameters
+    ----------
+    situation
+        Study and machine.
+    timed
+        The fits, each with the time of a call alone and among others [s].
+    beside
+        Other work of the run.
+    start
+        Start of a job [s].
+    """
     calls = sum(part.alone + part.together for part, _, _ in timed)
     model = sum(part.alone * alone + part.together * each for part, alone, each in timed)
     # Nothing but its analysis runs beside the fit of the kinetics.

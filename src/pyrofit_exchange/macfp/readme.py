@@ -102,7 +102,7 @@ def _proofs(proofs: Sequence[Proof]) -> Iterator[str]:
         )
 
 
-def _absent(strict: StrictSet) -> list[str]:
+def absent_parts(strict: StrictSet) -> list[str]:
     """Return the reactants that are neither in the virgin material nor made of it, as water."""
     of, k = strict.composition, strict.kinetics
     made = {product for products in k.products for product in products}
@@ -121,7 +121,7 @@ def _predictions(written: Sequence[str], asked: Asked, strict: StrictSet) -> Ite
     if 3 in asked.forms:
         place = f"the apparatus of '{asked.like}'" if asked.like else "an ideal slab of 6 mm"
         yield f"MaCFP-3: {place}, at 25 and 50 kW/m2."
-    if absent := _absent(strict):
+    if absent := absent_parts(strict):
         yield f"The predicted samples contain no {', no '.join(absent)}: they have the initial "
         yield "mass fractions of the set."
     yield ""

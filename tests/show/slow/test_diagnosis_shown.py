@@ -25,7 +25,7 @@ from pyrofit.results.files import Results, write_csv, write_json, write_text
 from pyrofit.results.schema_page import schema_page
 from pyrofit.show import diagnosis_page as report
 from pyrofit.show import style
-from pyrofit.show.diagnosis.curves import _pairs as signal_pairs
+from pyrofit.show.diagnosis.curves import pairs_of_axes as signal_pairs
 from pyrofit.show.diagnosis.sentences import gap_closed
 from pyrofit.show.diagnosis.words import leading, prediction_name, ranked
 from pyrofit.show.diagnosis_page import (

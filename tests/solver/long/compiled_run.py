@@ -24,7 +24,7 @@ import numpy as np
 
 from pyrofit.config import Study, read_study
 from pyrofit.model.accuracy import Accuracy
-from pyrofit.simulate import _lower, simulate_gasifications, simulate_tgas
+from pyrofit.simulate import lowered, simulate_gasifications, simulate_tgas
 from pyrofit.solver.curves import Curves, Request
 from pyrofit.solver.lower import Substance
 
@@ -41,7 +41,7 @@ def bits(name: str) -> str:
     values = {n: np.full(sets, x) for n, x in study.true_values().items()}
     if name == "cells":
         experiment = study.experiments["slab_60"]
-        case = _lower(experiment, Substance(study.material, study.true_values()), Accuracy())
+        case = lowered(experiment, Substance(study.material, study.true_values()), Accuracy())
         return str(case.cells)
     found = tga(study, values, sets) if "tga" in name else slab(study, values, sets)
     return hashlib.sha256(

@@ -124,7 +124,7 @@ def fitted_from_starts(
     points.
     """
     model = model_of(base, {})
-    starts = _starts(base, seed)
+    starts = start_points(base, seed)
     ahead = [_chi2(residuals) for residuals in model.residuals_all(np.array(starts))]
     starts = [starts[k] for k in np.argsort(ahead, kind="stable")]
     first = starts[: SETTINGS.base_descents]
@@ -136,19 +136,19 @@ def fitted_from_starts(
             "diagnosis: no run within the limits of the parameters finishes; check the limits and "
             "the description of the experiments"
         )
-    valleys = _apart([end.chi2 for end in ends])
+    valleys = apart([end.chi2 for end in ends])
     others = [ends[k].x for k in valleys[1:]] + starts
     return polished([FittedModel(model, best)], processes)[0], others
 
 
-def _apart(chi2: Sequence[float]) -> list[int]:
+def apart(chi2: Sequence[float]) -> list[int]:
     """Return the positions of ends in different valleys, from their chi-squares in order."""
     found = [0]
     found += [k for k in range(1, len(chi2)) if chi2[k] - chi2[k - 1] > SETTINGS.same_valley]
     return found
 
 
-def _starts(base: Base, seed: int) -> list[FloatArray]:
+def start_points(base: Base, seed: int) -> list[FloatArray]:
     """Return the centre and points spread over the limits, known parameters at their means."""
     size = len(base.likelihood.problem.names)
     spread = 0.05 + 0.9 * qmc.LatinHypercube(size, seed=np.random.default_rng(seed)).random(

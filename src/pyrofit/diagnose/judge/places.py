@@ -118,7 +118,7 @@ def findings_of(
         if trial is not places[k][0][1]:  # the end's other effects have places of their own
             about = replace(about, limit=next(iter(strengths_at_limit(trial)), ""))
         gain = inflation.penalised(without[k]) - inflation.penalised(trial)
-        return Judged(name, trial, about, _against(gain, found.spare, about))
+        return Judged(name, trial, about, words_against(gain, found.spare, about))
 
     def passes(one: Exchange, k: int) -> bool:
         return not any(judged(name, rivals[_key(one.trial)], k).rejected for name in one.by)
@@ -179,7 +179,7 @@ def _all_needed(found: Search, trial: FittedModel, by: Sequence[str]) -> bool:
     return not any(set(t.effects) in smaller and penalised(t) < enough for t in found.trials)
 
 
-def _against(gain: float, spare: float, about: Trust) -> str:
+def words_against(gain: float, spare: float, about: Trust) -> str:
     """State the reason against a model, empty where it passes.
 
     ``gain`` is that of penalised chi-square over the model without the effect.

@@ -71,7 +71,7 @@ def _explained(
     """Return the verdict on effects that leave nothing but noise."""
     if all(finding.agreed for finding in findings):
         findings = _with_other_terms(found, findings, without, processes)
-    doubts = tuple(_doubts(found, findings))
+    doubts = tuple(doubts_of(found, findings))
     kind: Kind = "multiple" if len(findings) > 1 else "named"
     if ONE_FLUX in doubts or (kind == "named" and not findings[0].sure):
         kind = "ambiguous"
@@ -123,7 +123,7 @@ def _partly(
     findings = findings_of(found, without, context)
     if found.end_lack.adequate:
         return _explained(found, findings, without, processes)
-    if all_fit or ONE_FLUX in _doubts(found, findings):
+    if all_fit or ONE_FLUX in doubts_of(found, findings):
         return None
     leading = [finding.kept[0] for finding in findings]
     if not any(judged.trust.outvoted for judged in leading):
@@ -198,7 +198,7 @@ def _without_effects(found: Search) -> Verdict:
     return Verdict("unknown", found, (), ("no effect of the catalogue gains enough",))
 
 
-def _doubts(found: Search, findings: Sequence[Finding]) -> list[str]:
+def doubts_of(found: Search, findings: Sequence[Finding]) -> list[str]:
     """Say why a claim is less than sure."""
     doubts = []
     base = found.base.model.base

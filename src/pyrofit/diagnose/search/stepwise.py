@@ -80,7 +80,7 @@ def search(base: FittedModel, effects: Sequence[str], most: int, context: Search
     context
         Noise, listener, processes, other starts.
     """
-    found = _Pass(effects, most, context).run(step_from(base, effects, context))
+    found = Pass(effects, most, context).run(step_from(base, effects, context))
     if settled(found, most):
         return found
     sharper = sharpened(found.end, context.processes)
@@ -89,7 +89,7 @@ def search(base: FittedModel, effects: Sequence[str], most: int, context: Search
     context.tell("once more, with the noise about the best model")
     carried = refitted_all([found.base, *_leading(found)], sharper, context.processes)
     start = step_from(carried[0], effects, context)
-    return _Pass(effects, most, context, tuple(carried[1:])).run(start)
+    return Pass(effects, most, context, tuple(carried[1:])).run(start)
 
 
 def settled(found: Search, most: int) -> bool:
@@ -120,7 +120,7 @@ def _leading(found: Search) -> list[FittedModel]:
 
 
 @dataclass(frozen=True, eq=False)
-class _Pass:
+class Pass:
     """One pass of the search under one noise.
 
     ``carried`` are models that an earlier pass found, fitted under this noise.
@@ -133,6 +133,7 @@ class _Pass:
 
     @property
     def spare(self) -> float:
+        """Fall of chi-square that the best of as many effects reaches by chance."""
         return 2.0 * float(functions.log(max(len(self.effects), 1)))
 
     def run(self, first: SearchStep) -> Search:

@@ -75,7 +75,7 @@ def _draw(study: Study, results: Results, quantity: Quantity) -> Canvas:
     found = diagnosis.read(study, results)
     curves = diagnosis.curves(study, results)
     signals = [n for n in found.noise if quantity_of(study, n).name == quantity.name]
-    canvas, pairs = _pairs(len(signals))
+    canvas, pairs = pairs_of_axes(len(signals))
     style.letter([above for above, _ in pairs], [_title(study, n) for n in signals])
     x = "temperature_K" if quantity.against_temperature else "time_s"
     after = windows = False
@@ -115,7 +115,7 @@ def _draw_pair(
         below.set_ylabel("simulated −\nmeasured [sd]")
 
 
-def _pairs(count: int) -> tuple[Canvas, list[tuple[Axes, Axes]]]:
+def pairs_of_axes(count: int) -> tuple[Canvas, list[tuple[Axes, Axes]]]:
     """Return a canvas with pairs of panels, two pairs side by side, three of many."""
     most, height = (2, 45.0) if 4 * -(-count // 2) <= style.MANY else (style.MOST_COLUMNS, 36.0)
     columns = min(most, count)

@@ -31,11 +31,11 @@ def sentences(study: Study, results: Results) -> list[str]:
     higher = record.matrix(results, record.EXCESS)
     return [
         _sample(found),
-        *_alike(correlation(study, results)),
+        *alike_costs(correlation(study, results)),
         *_among_best(_part(record.matrix(results, record.AMONG_BEST), list(study.imp.costs))),
         *_undecided(found),
-        *_own(_part(higher, list(study.imp.costs))),
-        *_regret(_part(better, [name for name in better if name not in undecided(found)])),
+        *own_costs(_part(higher, list(study.imp.costs))),
+        *regret_of(_part(better, [name for name in better if name not in undecided(found)])),
         *_valleys(shown(found), found),
         *_same(found),
         *_warnings(found),
@@ -56,7 +56,7 @@ def _same(found: Rescored) -> list[str]:
     return said + ([f"{listed(mute)}: the same value for all sets."] if mute else [])
 
 
-def _alike(matrix: pd.DataFrame) -> list[str]:
+def alike_costs(matrix: pd.DataFrame) -> list[str]:
     """Say which costs rank the sets alike, which do not, and which two agree least."""
     if len(matrix) < 2:
         return []
@@ -110,7 +110,7 @@ def _part(table: pd.DataFrame, names: Sequence[object]) -> pd.DataFrame:
     return table.loc[known, known]
 
 
-def _own(higher: pd.DataFrame) -> list[str]:
+def own_costs(higher: pd.DataFrame) -> list[str]:
     """Say how far the study's own cost functions regret each other's best sets."""
     if len(higher) < 2 or higher.isna().all(axis=None):
         return []
@@ -123,7 +123,7 @@ def _own(higher: pd.DataFrame) -> list[str]:
     ]
 
 
-def _regret(better: pd.DataFrame) -> list[str]:
+def regret_of(better: pd.DataFrame) -> list[str]:
     """Say which best set is worst under another cost."""
     if len(better) < 2 or better.max(axis=None) == 0.0:
         return []
