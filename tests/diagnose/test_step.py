@@ -171,7 +171,7 @@ def test_exchange_fits_all_that_are_chosen(
     end = fit_with(base, "c_T", "k_T")
     lack = LackOfFit((), 0.0, 1.0, 0.0, 1.0, 0.0, 1.0)
     found = Search((look_first(base, [], CONTEXT),), end, lack, 0.0)
-    stepwise._Pass(("c_T", "k_T", *others), 3, CONTEXT)._exchanged(found)
+    stepwise.Pass(("c_T", "k_T", *others), 3, CONTEXT)._exchanged(found)
     assert [len(step.looks) for step, _ in given] == [len(others)] * 2
     assert all(most >= len(others) for _, most in given)
 
