@@ -135,6 +135,26 @@ def test_oxygen_of_a_column_is_that_of_the_gas(
     assert (gas_line(run) != "") == bool(gas)
 
 
+@pytest.mark.parametrize(
+    ("gases", "gas", "then"),
+    [
+        (("N2", "N2"), "", ""),
+        (("N2", "air"), "", "air"),
+        (("air", "N2"), "air", ""),
+        (("Ar", "20 % O2"), "", "20 % O2"),
+    ],
+)
+def test_change_of_gas_in_a_column_is_told(
+    gases: tuple[str, str], gas: str, then: str, tmp_path: Path
+) -> None:
+    rows = zip(TIME, KELVIN, MASS, strict=True)
+    lines = [f"{t};{T};{m};{gases[int(T > 800.0)]}" for t, T, m in rows]
+    path = tmp_path / "a.txt"
+    path.write_text("\n".join(["Time (s);Temperature (K);Mass (-);Gas", *lines, ""]))
+    run = draft.measured("tga", path)
+    assert (run.gas, run.then_gas) == (gas, then)
+
+
 @pytest.mark.parametrize("first", [6.0, 5.76])
 def test_record_that_starts_below_the_stated_mass_is_told(first: float, tmp_path: Path) -> None:
     header = "Time (s);Temperature (K);Mass (mg)"

@@ -47,8 +47,8 @@ class Table:
         Rows of the file, from 0, that the columns do not have any more.
     mended : tuple of str
         Notes on all that is no table in UTF-8 with decimal points.
-    faults : dict of str to tuple of int and str
-        Line number and text of the first cell that holds no number, by column that has one.
+    texts : dict of str to dict of str to int
+        Texts of the cells that hold no number, each with its first line, by column that has some.
     area_m2 : float, optional
         Exposed area of the sample [m2], where the file tells it.
     stated : Stated
@@ -61,9 +61,15 @@ class Table:
     first_row: int
     left_out: tuple[int, ...] = ()
     mended: tuple[str, ...] = ()
-    faults: dict[str, tuple[int, str]] = field(default_factory=dict)
+    texts: dict[str, dict[str, int]] = field(default_factory=dict)
     area_m2: float | None = None
     stated: Stated = field(default_factory=Stated)
+
+    @property
+    def faults(self) -> dict[str, tuple[int, str]]:
+        """Line number and text of the first cell that holds no number, by column that has one."""
+        firsts = {name: next(iter(texts.items())) for name, texts in self.texts.items()}
+        return {name: (line, text) for name, (text, line) in firsts.items()}
 
     def line(self, row: int) -> int:
         """Return the line number, from 1, of a row of the columns."""
@@ -172,7 +178,7 @@ def _table(
     rows = _whole_times(whole_rows(path, lines, heading, marks, notes), heading)
     numerals = numerals_of(rows)
     notes += _notes_on(numerals)
-    values, faults = parsed(rows, len(heading.names), numerals, notes)
+    values, texts = parsed(rows, len(heading.names), numerals, notes)
     clocks = [seconds(cell) is not None for cell in rows[0].cells]
     units = [
         _of_clock(unit) if clock else unit
@@ -182,7 +188,7 @@ def _table(
     first, kept = lines[0].number, {row.number for row in rows}
     between = range(first, rows[-1].number)
     left_out = tuple(number - first for number in between if number not in kept)
-    return _as_table(path, heading, values, faults, first, left_out, notes)
+    return _as_table(path, heading, values, texts, first, left_out, notes)
 
 
 def _whole_times(rows: list[Line], heading: Heading) -> list[Line]:
@@ -209,7 +215,7 @@ def _as_table(
     path: Path,
     heading: Heading,
     values: FloatArray,
-    faults: Mapping[int, tuple[int, str]],
+    texts: Mapping[int, dict[str, int]],
     first_row: int,
     left_out: tuple[int, ...],
     notes: Sequence[str],
@@ -218,7 +224,7 @@ def _as_table(
     used = [
         i
         for i in range(len(heading.names))
-        if heading.named[i] or i in faults or not np.isnan(values[:, i]).all()
+        if heading.named[i] or i in texts or not np.isnan(values[:, i]).all()
     ]
     names = {i: heading.names[i] for i in used}
     return Table(
@@ -228,7 +234,7 @@ def _as_table(
         first_row,
         left_out,
         tuple(notes),
-        {names[i]: fault for i, fault in faults.items()},
+        {names[i]: of_column for i, of_column in texts.items()},
     )
 
 

@@ -15,6 +15,8 @@ from pyrofit.errors import DataError
 FloatArray = npt.NDArray[np.float64]
 _FEWEST_ROWS = 3
 _DAY_S = 86_400.0
+_MOST_TEXTS = 20
+"""Texts of a column that are kept."""
 
 
 def rows_of(path: Path, raw: Sequence[str], layout: Layout) -> list[Line]:
@@ -123,13 +125,13 @@ def _are_units(cells: list[str]) -> bool:
 
 def parsed(
     rows: Sequence[Line], width: int, numerals: Numerals, notes: list[str]
-) -> tuple[FloatArray, dict[int, tuple[int, str]]]:
-    """Return the numbers, and line and text of the first cell of each column that holds none.
+) -> tuple[FloatArray, dict[int, dict[str, int]]]:
+    """Return the numbers, and the texts of each column that holds some, with their first lines.
 
     A column of times hh:mm:ss is read in seconds. Words such as `NaN` hold no value, and are noted.
     """
     values = np.full((len(rows), width), np.nan)
-    faults: dict[int, tuple[int, str]] = {}
+    texts: dict[int, dict[str, int]] = {}
     absent: list[str] = []
     for i in range(width):
         clock = seconds(rows[0].cells[i]) is not None
@@ -140,7 +142,9 @@ def parsed(
             if number is not None:
                 values[j, i] = number
             elif cell and cell.casefold() not in ABSENT:
-                faults.setdefault(i, (row.number, cell))
+                of_column = texts.setdefault(i, {})
+                if len(of_column) < _MOST_TEXTS:
+                    of_column.setdefault(cell, row.number)
             elif cell:
                 absent.append(cell)
         if clock and is_dated(rows[0].cells[i]):
@@ -150,7 +154,7 @@ def parsed(
     if absent:
         words = " or ".join(f"'{word}'" for word in sorted(set(absent)))
         notes.append(f"{len(absent)} cells hold {words}")
-    return values, faults
+    return values, texts
 
 
 def _past_midnight(times: FloatArray, rows: Sequence[Line]) -> list[str]:

@@ -221,7 +221,7 @@ def measured(kind: str, path: Path) -> Measured:
         mended=(*table.mended, *thinned),
         lacks=lacks,
         end=end,
-        then_gas=table.stated.then_gas if end is None else "",
+        then_gas=(table.stated.then_gas or _then_gas(kind, table)) if end is None else "",
         gas=table.stated.gas or gas_of(path.stem) or _gas_of_columns(kind, table),
     )
 
@@ -250,17 +250,36 @@ def _gas_of_columns(kind: str, table: Table) -> str:
 
     In the combustor of a microscale calorimeter it is not that around the sample.
     """
-    of_sample = any(q.has_sign or "mass" in q.scales for q in measurable(kind).values())
-    if KINDS[kind].stage != "kinetics" or not of_sample:
+    gases = _gases(kind, table)
+    if gases is None:
         return ""
-    for name, (_, text) in table.faults.items():
-        if re.fullmatch(r"(purge|sample)?\W*gas|atmosphere|gaz", name, re.I) and holds_oxygen(text):
-            return text
+    if gases and holds_oxygen(gases[0]):
+        return gases[0]
     for name, values in table.columns.items():
         percent = float(np.nan_to_num(values).mean()) if table.units[name] == "%" else 0.0
         if re.fullmatch(r"o_?2|oxygen", name.strip(), re.I) and percent > _OXYGEN_PERCENT:
             return f"O2 {percent:.3g} %"
     return ""
+
+
+def _then_gas(kind: str, table: Table) -> str:
+    """Return a gas with oxygen that follows another one in a column of gases, or nothing."""
+    first, *later = _gases(kind, table) or [""]
+    return "" if holds_oxygen(first) else next(filter(holds_oxygen, later), "")
+
+
+def _gases(kind: str, table: Table) -> list[str] | None:
+    """Return the gases that a column of text names in their order; None where none is shown.
+
+    That is the case for samples whose mass is not measured in that gas.
+    """
+    of_sample = any(q.has_sign or "mass" in q.scales for q in measurable(kind).values())
+    if KINDS[kind].stage != "kinetics" or not of_sample:
+        return None
+    for name, texts in table.texts.items():
+        if re.fullmatch(r"(purge|sample)?\W*gas|atmosphere|gaz", name, re.I):
+            return list(texts)
+    return []
 
 
 def _end_of_heating(frames: Mapping[str, pd.DataFrame], table: Table) -> End | None:
