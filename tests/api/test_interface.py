@@ -256,7 +256,7 @@ def test_plot_uses_the_axes_that_are_given(study: pf.Study) -> None:
 def test_parameter_that_was_fixed_needs_limits_to_be_free(study: pf.Study) -> None:
     held = pf.read_study(study, **{"parameters.k.fixed": 0.2})
     assert "k" not in held.imp.estimate
-    with pytest.raises(StudyError, match=r"parameters\.k\.fixed: .* give `lower` and `upper`"):
+    with pytest.raises(StudyError, match=r"parameters\.k\.fixed: .* Give `lower` and `upper`"):
         pf.read_study(held, **{"parameters.k.fixed": None})
     limits = {"fixed": None, "lower": 0.1, "upper": 0.4}
     free = pf.read_study(held, **{"parameters.k": limits, "imp.estimate": study.imp.estimate})
