@@ -74,7 +74,10 @@ def source_fingerprint(*modules: str) -> str:
     for package in NUMERIC:
         total.update(f"{package} {_version(package)}".encode())
     reached = _reached(Path(__file__).parent, modules, _modules_here)
-    folders = {path.parent: name.rpartition(".")[0] for name, path in reached.items()}
+    folders = {
+        path.parent: name if path.name == "__init__.py" else name.rpartition(".")[0]
+        for name, path in reached.items()
+    }
     beside = {
         f"{name}/{p.name}": p
         for folder, name in folders.items()

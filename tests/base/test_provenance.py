@@ -1,5 +1,6 @@
 """Fingerprints of the source change with an edit of all that a step depends on, and of no more."""
 
+import os
 import shutil
 import subprocess
 import sys
@@ -293,3 +294,19 @@ def test_searches_do_not_rest_on_what_finds_and_reads_measured_files() -> None:
     reading = {"stages/reading.py", "stages/measurements.py", "data/series.py", "data/fetch.py"}
     assert not reading & found
     assert reading <= {p.relative_to(SOURCE).as_posix() for p in SOURCE.rglob("*.py")}
+
+
+def test_fingerprint_does_not_depend_on_the_order_of_sets() -> None:
+    """Sets of names have another order in each process, unless it is seeded."""
+    ask = "from pyrofit.provenance import source_fingerprint as f; print(f('pyrofit.stages.fit'))"
+    found = {
+        subprocess.run(
+            [sys.executable, "-c", ask],
+            env={**os.environ, "PYTHONHASHSEED": str(seed)},
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout
+        for seed in range(6)
+    }
+    assert len(found) == 1
