@@ -99,7 +99,7 @@ def _apparatus(apparatus: Apparatus) -> list[str]:
     for name, row in apparatus.fit.table.to_dict("index").items():
         interval = f"{row['low']:.3g} to {row['high']:.3g}"
         lines.append(f"| {name} | {row['value']:.3g} | {interval} | {row['unit']} |")
-    return [*lines, "", *apparatus.fit.verdict]
+    return [*lines, "", "Of this fit to the inert runs:", *apparatus.fit.verdict]
 
 
 def _shown(number: float) -> str:

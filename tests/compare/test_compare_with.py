@@ -114,7 +114,8 @@ COPPER = {
 
 def _with_h(flux: float, h: object, signals: dict[str, object], inert: bool) -> dict[str, object]:
     keys = {k: v for k, v in _slab(flux, signals, []).items() if k != "repeats"}
-    keys["front"] = {**keys["front"], "h_W_m2K": h}  # type: ignore[dict-item]
+    front = yaml.safe_load(SMOKE.read_text())["experiments"]["slab_60"]["front"]
+    keys["front"] = {**front, "flux_W_m2": flux, "h_W_m2K": h}
     plate = {"layers": [{"thickness_m": 0.004, "composition": {"copper": 1}}]}
     return {**keys, "sample": plate} if inert else keys
 
