@@ -277,10 +277,10 @@ def drawn(group: Group, root: Path) -> Iterator[tuple[Figure, Path]]:
 def of_diagnosis(root: Path) -> dict[str, Figure]:
     """Return the figures of a diagnosis; none where there is no diagnosis."""
     results = Results(root)
-    if not diagnosis_page.exists(results):
-        return {}
     study = read_study(root / "study.json")
-    return diagnosis_page.figures_of(study, diagnosis.read(study, results))
+    if not diagnosis_page.exists(study, results):
+        return {}
+    return dict(diagnosis_page.of_diagnosis(study, diagnosis.read(study, results)).figures)
 
 
 def picture(name: str) -> Path:

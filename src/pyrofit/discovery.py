@@ -40,6 +40,14 @@ def contents(package: str, folders: Iterable[str], attribute: str) -> dict[str, 
     return found
 
 
+def rooms(package: str, folders: Iterable[str], attribute: str) -> dict[str, Any]:
+    """Return the objects that the folders in another package define, as `contents` does.
+
+    The package does not import them itself, so that each of them may stand alone.
+    """
+    return contents(package, folders, attribute)
+
+
 def catalogue(
     package: str, folders: Iterable[str], attribute: str, group: str, kind: type
 ) -> dict[str, Any]:

@@ -49,10 +49,12 @@ FINDERS = frozenset(
     {
         "pyrofit.discovery.catalogue",
         "pyrofit.discovery.contents",
-        "pyrofit.show.section.section_of",
+        "pyrofit.show.page.page_of_folder",
     }
 )
 """Functions by which a package finds its files without importing them by name; all count."""
+FINDER_OF_FOLDERS = "pyrofit.discovery.rooms"
+"""Function by which a module finds the folders in a package that it imports; all count."""
 BY_USE = ("pyrofit.effects", "pyrofit.steps")
 """Packages of which only the used files count, see `results.dependencies`."""
 
@@ -170,9 +172,13 @@ _modules_here = cache(_files_by_module)
 
 
 def _catalogue(package: str, files: Mapping[str, Path]) -> list[str]:
-    """Return the modules of a package that finds all of them."""
+    """Return the modules of a package that finds all of them, or the folders that one finds."""
     path = files[package]
-    finds = path.name == "__init__.py" and source_of(path).imports & FINDERS
+    imports = source_of(path).imports
+    if FINDER_OF_FOLDERS in imports:
+        folders = (name for name, file in files.items() if file.name == "__init__.py")
+        return [name for name in folders if name.rpartition(".")[0] in imports]
+    finds = path.name == "__init__.py" and imports & FINDERS
     if not finds or package in BY_USE:
         return []
     return [name for name in files if name.rpartition(".")[0] == package]

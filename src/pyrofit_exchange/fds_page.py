@@ -11,13 +11,12 @@ from pyrofit.quantities import known_quantities
 from pyrofit.results.files import Results, read_csv
 from pyrofit.show import style
 from pyrofit.show.drawn import Axes, Canvas
-from pyrofit.show.parts import Part, Picture, Shown, picture, table_part
-from pyrofit.show.table import Table, write_table
+from pyrofit.show.figure import Figure
+from pyrofit.show.page import Page
+from pyrofit.show.table import Table
 from pyrofit.show.units import shown
 
-FOLDER = "fds"
 TITLE = "FDS beside pyrofit"
-CAPTION = "The same material and tests in pyrofit (lines) and in FDS (dashed)."
 MOST_PANELS = 12
 
 
@@ -39,9 +38,9 @@ def entries(results: Results) -> list[dict[str, Any]]:
     return found
 
 
-def exists(results: Results) -> bool:
+def exists(study: Study, results: Results) -> bool:
     """Whether the decks have been run in FDS."""
-    return results.fds(f"{FOLDER}.svg").is_file()
+    return results.fds("fds.svg").is_file()
 
 
 def _table(study: Study, results: Results) -> pd.DataFrame:
@@ -60,7 +59,6 @@ def _table(study: Study, results: Results) -> pd.DataFrame:
 
 TABLE = Table(
     place=10,
-    applies=lambda study: True,
     make=_table,
     title=TITLE,
     note="Rates and temperatures until 10 s before burn-out. No verdict where FDS has a term in "
@@ -85,6 +83,11 @@ def figure(study: Study, results: Results) -> Canvas:
     return canvas
 
 
+def _about(study: Study, results: Results) -> str:
+    first = entries(results)[0]
+    return f"FDS {first['fds']}, set '{first['set']}'."
+
+
 def _draw(ax: Axes, signal: str, part: pd.DataFrame) -> None:
     quantity = known_quantities()[signal]
     timed = "time_s" in part and part["time_s"].notna().all()
@@ -95,23 +98,29 @@ def _draw(ax: Axes, signal: str, part: pd.DataFrame) -> None:
     ax.set_ylabel(f"{quantity.title} [{quantity.shown.unit}]")
 
 
+FIGURE = Figure(
+    place=20,
+    make=figure,
+    title=TITLE,
+    caption="The same material and tests in pyrofit (lines) and in FDS (dashed).",
+)
+PAGE = Page(
+    "fds",
+    heading="In FDS",
+    text="The decks of the export, run in a real FDS, beside the curves of pyrofit.",
+    tables={"table": TABLE},
+    figures={"fds": FIGURE},
+    folders=("fds", "fds"),
+    written=False,
+    about={0: _about},
+    exists=exists,
+)
+
+
 def draw_and_write(study: Study, results: Results) -> None:
     """Write table and figure to ``fds``; the figure only where FDS has made a curve."""
-    results.fds(f"{FOLDER}.svg").unlink(missing_ok=True)
-    if not any(not e["error"] for e in entries(results)):
-        return
-    write_table(results.fds(""), "table", TABLE, _table(study, results), study)
-    with style.style():
-        style.save(figure(study, results), results, FOLDER, FOLDER)
-
-
-def section(study: Study, results: Results) -> Shown:
-    """Return the results of the decks in FDS as a section of the report."""
-    found = entries(results)
-    about = f"FDS {found[0]['fds']}, set '{found[0]['set']}'."
-    parts: list[Part | Picture] = [
-        table_part(study, TABLE, _table(study, results), about),
-        picture(results.fds(f"{FOLDER}.svg"), FOLDER, TITLE, CAPTION),
-    ]
-    text = "The decks of the export, run in a real FDS, beside the curves of pyrofit."
-    return Shown(FOLDER, "In FDS", text, tuple(parts))
+    results.fds("fds.svg").unlink(missing_ok=True)
+    if any(not e["error"] for e in entries(results)):
+        PAGE.write_table("table", study, results)
+        with style.style():
+            style.save(figure(study, results), results, "fds", "fds")

@@ -18,8 +18,8 @@ from pyrofit.estimate.prior import NO_PRIOR, NormalPrior, prior_of
 from pyrofit.results import dependencies
 from pyrofit.results.step import slice_of
 from pyrofit.show.facts import facts_of
-from pyrofit.show.identification.known_values import table as known_values
-from pyrofit.show.identification.sentences import sentences
+from pyrofit.show.subjects.identification.known_values import table as known_values
+from pyrofit.show.subjects.identification.sentences import sentences
 
 SPAN = np.array([2.0, 4.0])
 START = [np.array([0.4, 0.6])]

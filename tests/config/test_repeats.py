@@ -24,8 +24,8 @@ from pyrofit.estimate.prior import prior_of
 from pyrofit.estimate.problem import Problem, make_problem
 from pyrofit.experiments.base import Kind
 from pyrofit.results.files import Results
-from pyrofit.show.identification import repeats as shown
-from pyrofit.show.identification.repeats import table
+from pyrofit.show.subjects.identification import repeats as shown
+from pyrofit.show.subjects.identification.repeats import table
 from pyrofit.stages.measurements import computed
 
 SDS = {"thickness_sd": 0.02, "flux_sd": 0.03, "clock_sd_s": 1.0}

@@ -208,8 +208,8 @@ def test_the_command_draws_what_the_report_shows(
     results = Results(tmp_path / "results")
     given = ["fds-check", "--study", str(SMOKE), "--set", "truth", "--results", str(results.root)]
     assert main(given) == 0
-    assert fds_page.exists(results)
-    part = fds_page.section(study, results)
+    assert fds_page.PAGE.exists(study, results)
+    part = fds_page.PAGE.section(study, results)
     shown = part.parts[0]
     assert isinstance(shown, Part)
     assert "FDS 6.8.0, set 'truth'" in shown.text
@@ -219,7 +219,7 @@ def test_the_command_draws_what_the_report_shows(
     # Without FDS, or where all runs fail, an old figure would be taken for a proof.
     (tmp_path / "a bin" / "mode").write_text("error")
     assert main(given) == 0
-    assert not fds_page.exists(results)
+    assert not fds_page.PAGE.exists(study, results)
 
 
 @pytest.mark.skipif(not os.environ.get("PYROFIT_FDS"), reason="PYROFIT_FDS is not set")

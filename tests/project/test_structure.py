@@ -88,7 +88,7 @@ NUMBERS_TO_A_POWER = {
     "pyrofit_exchange/macfp/curves.py": "a number's temperature",
     "pyrofit_exchange/thermakin/conditions.py": "numbers of the surroundings",
     "seeds.py": "an integer",
-    "show/optimisers/fig5.py": "the margin of an axis",
+    "show/subjects/optimisation/fig5.py": "the margin of an axis",
     "solver/reference/bdf.py": "numbers of a step",
 }
 """Files with powers other than 2 of numbers; those of arrays are NumPy's."""

@@ -13,7 +13,7 @@ from pyrofit.results import kinetics
 from pyrofit.results.files import Results
 from pyrofit.results.recorded import load
 from pyrofit.show.figure import draw_figure
-from pyrofit.show.kinetics import KINETICS
+from pyrofit.show.subjects.kinetics import PAGE
 from pyrofit.stages.fit import fit_kinetics
 from pyrofit.stages.identify import identify_kinetics
 from pyrofit.stages.kinetic_curves import write_curves
@@ -51,10 +51,10 @@ def test_heats_are_recovered(fitted: tuple[Study, Results], name: str, share: fl
 def test_heats_are_drawn_and_scored_beside_the_data(fitted: tuple[Study, Results]) -> None:
     study, results = fitted
     for name in ("fig2", "kinetics_all_rates", "heats"):
-        assert KINETICS.figures[name].applies(study)
-        draw_figure(KINETICS.figures[name], name, study, results)
+        assert PAGE.figures[name].applies(study)
+        draw_figure(PAGE.figures[name], name, study, results)
         assert (results.root / "figures" / f"{name}.svg").stat().st_size > 5000
-    scores = KINETICS.tables["heat_scores"].make(study, results)
+    scores = PAGE.tables["heat_scores"].make(study, results)
     assert scores["quantity"].tolist() == [
         "RMSE of heat flow",
         "RMSE of specific heat release rate",
@@ -74,5 +74,5 @@ def test_study_without_mass_has_scores_of_its_heats_alone(tmp_path: Path) -> Non
     assert pd.read_csv(results.kinetics("curves.csv")).empty
     assert pd.read_csv(results.kinetics("scores.csv")).empty
     assert len(pd.read_csv(results.kinetics("heat_scores.csv"))) == 4
-    applies = {name for name, figure in KINETICS.figures.items() if figure.applies(study)}
+    applies = {name for name, figure in PAGE.figures.items() if figure.applies(study)}
     assert applies == {"heats"}

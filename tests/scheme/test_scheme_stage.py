@@ -103,7 +103,7 @@ def test_study_with_the_chosen_scheme_finds_its_files_from_anywhere(
 
 def test_tables_and_figure_are_written_and_make_a_section(made: Made) -> None:
     assert not exists(made.study, made.results, "scheme")
-    PAGE.draw_and_write(made.study, made.results)
+    PAGE.write(made.study, made.results)
     assert exists(made.study, made.results, "scheme")
     section = PAGE.section(made.study, made.results)
     assert "one reaction of order n" in section.said[0]

@@ -7,7 +7,7 @@ from matplotlib.colors import to_rgba
 from shown_studies import fake, synthetic
 
 from pyrofit.show import style
-from pyrofit.show.costs import fig1 as fig
+from pyrofit.show.subjects.costs import fig1 as fig
 
 
 @pytest.fixture(scope="module")

@@ -14,12 +14,12 @@ from pyrofit.config import as_study
 from pyrofit.errors import StudyError
 from pyrofit.results.files import read_csv, write_csv
 from pyrofit.results.kinetics import LOWEST
-from pyrofit.show.costs.table5 import table5
 from pyrofit.show.facts import facts_of
-from pyrofit.show.fit.table4 import flags
-from pyrofit.show.identification.sentences import sentences
 from pyrofit.show.names import data_name, flag
-from pyrofit.show.sections import TABLES, make_named, make_table
+from pyrofit.show.sections import TABLES, make_named
+from pyrofit.show.subjects.costs.table5 import table5
+from pyrofit.show.subjects.fit.table4 import flags
+from pyrofit.show.subjects.identification.sentences import sentences
 from pyrofit.show.table import readable
 from pyrofit.show.text import number
 
@@ -32,10 +32,10 @@ def test_every_table_is_written_twice_and_alike_each_time(name: str, tmp_path: P
         "repeats": repeats,
     }
     study, results = fake(tmp_path, needs.get(name, described)())
-    make_table(name, study, results)
+    make_named(name, study, results)
     files = [tmp_path / "tables" / f"{name}.{kind}" for kind in ("csv", "md")]
     first = [path.read_bytes() for path in files]
-    make_table(name, study, results)
+    make_named(name, study, results)
     assert [path.read_bytes() for path in files] == first
     assert b"nan" not in first[1].lower()
     assert b"None" not in first[1]
@@ -357,7 +357,7 @@ def test_study_without_kinetics_has_no_table3(tmp_path: Path) -> None:
     study, results = fake(tmp_path, given)
     assert not TABLES["table3"].applies(study)
     with pytest.raises(StudyError, match="has no table3"):
-        make_table("table3", study, results)
+        make_named("table3", study, results)
 
 
 @pytest.mark.parametrize(

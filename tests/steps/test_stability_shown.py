@@ -17,8 +17,8 @@ from pyrofit.config import Study
 from pyrofit.errors import DataError
 from pyrofit.results.files import Results, write_json
 from pyrofit.show import diagnosis_page, style
+from pyrofit.show.page import pages_of_steps
 from pyrofit.show.report import write_report
-from pyrofit.show.step_page import sections_of
 from pyrofit.steps.stability import record as stability
 from pyrofit.steps.stability.facts import read
 from pyrofit.steps.stability.figures import draw
@@ -118,7 +118,8 @@ def test_without_any_effect_there_is_a_table_and_an_empty_figure(tmp_path: Path)
         stability.write(results, of_draw(study, results, 0, **nothing, draw=number))
     gathered(study, results)
     assert "No data set leads to a claimed effect." in " ".join(sentences(study, results))
-    (shown,) = sections_of("diagnosis", study, results)
+    (page,) = pages_of_steps("diagnosis", study, results)
+    shown = page.section(study, results)
     assert len(shown.parts) == 3
 
 
@@ -156,7 +157,7 @@ def test_page_of_the_diagnosis_shows_the_stability_as_well(tmp_path: Path) -> No
 
 def gathered(study: Study, results: Results) -> None:
     """Do as the command that gathers all draws."""
-    PAGE.draw_and_write(study, results)
+    PAGE.write(study, results)
 
 
 def of_data(study: Study, results: Results) -> None:
@@ -196,7 +197,7 @@ def test_pages_leave_out_a_stability_that_is_not_up_to_date(
     assert stability.version(study, results)
     change(study, results)
     assert stability.version(study, results) == ""
-    assert sections_of("diagnosis", study, results) == []
+    assert pages_of_steps("diagnosis", study, results) == []
 
 
 def test_fewer_draws_need_new_tables(tmp_path: Path) -> None:

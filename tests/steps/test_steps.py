@@ -19,7 +19,7 @@ from pyrofit.provenance import imported_files
 from pyrofit.results.files import Results
 from pyrofit.results.step import check_options, inputs_of, slice_of, write_options
 from pyrofit.running.targets import targets
-from pyrofit.show.step_page import StepPage
+from pyrofit.show.page import Page
 from pyrofit.steps import known_steps
 
 ROOT = Path(__file__).parents[2]
@@ -64,8 +64,8 @@ def test_folders_are_steps_and_steps_are_folders() -> None:
 def test_step_has_all_that_workflow_command_and_report_ask_for(name: str) -> None:
     step, inputs = known_steps()[name], inputs_of(name)
     page = step.load("page").PAGE
-    assert isinstance(page, StepPage)
-    assert page.folder == name
+    assert isinstance(page, Page)
+    assert page.folders == (page.name, page.name) == (name, name)
     assert callable(step.load("compute").run)
     made = {f"{figure}.{kind}" for figure in page.figures for kind in ("svg", "png")}
     made |= {f"{page.prefix}{table}.{kind}" for table in page.tables for kind in ("csv", "md")}

@@ -10,7 +10,8 @@ from shown_studies import fake
 from pyrofit.config import Study
 from pyrofit.results.files import Results, write_text
 from pyrofit.show.report import write_report
-from pyrofit.show.sections import FIGURES, TABLES, make_table
+from pyrofit.show.sections import FIGURES, SUBJECTS
+from pyrofit.show.table import Frames
 
 LOADS = {"src", "href", "srcset", "data", "poster", "action"}
 
@@ -40,9 +41,15 @@ class Page(HTMLParser):
 
 def write_tables(study: Study, results: Results) -> None:
     """Write all tables of a study, as the workflow does before the report."""
-    for name, table in TABLES.items():
-        if table.applies(study):
-            make_table(name, study, results)
+    for page in SUBJECTS.values():
+        for name in page.tables_of(study):
+            page.write_table(name, study, results)
+
+
+def tables_of(study: Study, results: Results) -> Frames:
+    """Return all tables of the report, as they were written."""
+    pages = SUBJECTS.values()
+    return {n: frame for page in pages for n, frame in page.frames(study, results).items()}
 
 
 def written(root: Path, given: dict[str, Any] | None = None) -> tuple[Page, str]:

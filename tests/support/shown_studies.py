@@ -18,7 +18,7 @@ from pyrofit.results.goodness import Goodness, Miss, SignalGoodness
 from pyrofit.results.identification import Noise, write_noise
 from pyrofit.results.kinetics import labels
 from pyrofit.results.record import write_record
-from pyrofit.show.sections import make_table
+from pyrofit.show.sections import make_named
 from pyrofit.stages import compare
 
 SETS = ("SCE-UA best", "SCE-UA mean", "least squares best", "CMA-ES best")
@@ -329,5 +329,5 @@ def comparison(study: Study, results: Results) -> None:
 
 
 def made(name: str, study: Study, results: Results) -> pd.DataFrame:
-    make_table(name, study, results)
+    make_named(name, study, results)
     return read_csv(results.root / "tables" / f"{name}.csv")

@@ -79,7 +79,7 @@ def _run(step: Step, given: argparse.Namespace) -> None:
     if not part:
         check_options(study, results, step.name)
         page = step.load("page").PAGE
-        page.draw_and_write(study, results)
+        page.write(study, results)
         for line in page.sentences(study, results):
             print(line)
     if results.by_hand:

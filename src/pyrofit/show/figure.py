@@ -8,6 +8,7 @@ from pyrofit.config import Study
 from pyrofit.results.files import Results
 from pyrofit.show import style
 from pyrofit.show.drawn import Canvas
+from pyrofit.show.table import always
 
 
 @dataclass(frozen=True)
@@ -16,15 +17,17 @@ class Figure:
 
     place: int
     """Place in its section, in ascending order."""
-    applies: Callable[[Any], bool]
-    """Whether a study has it; in the diagnosis, whether its result has something to draw."""
     make: Callable[[Study, Results], Canvas]
     title: str
     caption: str
+    applies: Callable[[Any], bool] = always
+    """Whether a study has it; in the diagnosis, whether its result has something to draw."""
     verdict: Callable[[Study, Any], str] | None = None
     """Function of the study and the facts of its report that returns what the figure shows."""
     paper: str = ""
     """Figure of the paper that it reproduces, such as 'Figure 3'."""
+    shown: bool = True
+    """Whether the report shows it; else it is drawn alone."""
 
 
 def draw_figure(

@@ -60,6 +60,23 @@ class Shown:
     folded: bool = False
 
 
+def study_to_run(what: str, with_what: str, path: Path) -> Part:
+    """Return a part that says how a study with additions is run.
+
+    Parameters
+    ----------
+    what, with_what
+        What was added, for the title, and in the sentence.
+    path
+        The file of the study.
+    """
+    return Part(
+        f"The study with the {what}",
+        text=f"{path.as_posix()} is this study with the {with_what}. It is a study like any other:",
+        command=f"snakemake --cores 2 --configfile {path.as_posix()}",
+    )
+
+
 def table_part(study: Study, table: Table, frame: pd.DataFrame, text: str = "") -> Part:
     """Return a table as a part of a page, with sentences before it.
 

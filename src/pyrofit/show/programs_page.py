@@ -9,14 +9,8 @@ from pyrofit.config.expand.programs import externals
 from pyrofit.external.store import Store
 from pyrofit.results.files import Results
 from pyrofit.results.trial import timed_runs
-from pyrofit.show.parts import Shown, table_part
+from pyrofit.show.page import Page
 from pyrofit.show.table import Table
-
-NAME = "programs"
-TEXT = (
-    "Other programs simulate these experiments. Each run fills a template, starts the program and "
-    "reads its output."
-)
 
 
 def exists(study: Study, results: Results) -> bool:
@@ -57,7 +51,6 @@ def _table(study: Study, results: Results) -> pd.DataFrame:
 
 TABLE = Table(
     place=10,
-    applies=lambda study: bool(externals(study)),
     make=_table,
     title="External programs",
     note="Runs: parameter sets whose run succeeded. The folder `failed` holds a record of every "
@@ -70,13 +63,13 @@ TABLE = Table(
 )
 
 
-def section(study: Study, results: Results) -> Shown:
-    """Return the programs as a section of the report.
-
-    Raises
-    ------
-    DataError
-        The record of the timed run is missing or broken.
-    """
-    part = table_part(study, TABLE, _table(study, results))
-    return Shown(NAME, "External programs", TEXT, (part,))
+PAGE = Page(
+    "programs",
+    heading="External programs",
+    text="Other programs simulate these experiments. Each run fills a template, starts the program "
+    "and reads its output.",
+    tables={"programs": TABLE},
+    figures={},
+    written=False,
+    exists=exists,
+)

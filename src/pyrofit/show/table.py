@@ -16,15 +16,20 @@ Row = dict[str, object]
 """A row of a table, by column."""
 
 
+def always(study: Study) -> bool:
+    """Tell that every study has a table or figure."""
+    return True
+
+
 @dataclass(frozen=True)
 class Table:
     """A table: when a study has it, how it is made from results, and how it is read."""
 
     place: int
     """Place in its section, in ascending order."""
-    applies: Callable[[Study], bool]
     make: Callable[[Study, Results], pd.DataFrame]
     title: str
+    applies: Callable[[Study], bool] = always
     note: str = ""
     headings: Mapping[str, str] = field(default_factory=dict)
     group_by: str | None = None
@@ -32,11 +37,8 @@ class Table:
     """Table of the paper that it reproduces, such as 'Table 4'."""
     upright: str | None = None
     """Column whose values become the headings where the table is read: few rows, many columns."""
-
-
-def always(study: Study) -> bool:
-    """Tell that every study has a table."""
-    return True
+    shown: bool = True
+    """Whether the report shows it; else it is written alone."""
 
 
 def write_table(folder: Path, name: str, table: Table, frame: pd.DataFrame, study: Study) -> None:

@@ -14,12 +14,12 @@ from pyrofit.errors import StudyError
 from pyrofit.results.files import Results, read_csv, write_csv
 from pyrofit.show import style
 from pyrofit.show.curves import tests_of as groups_of
-from pyrofit.show.identification.profiles import profiles
-from pyrofit.show.kinetics.drawing import slope
-from pyrofit.show.kinetics.kinetics_all_rates import kinetics_all_rates
 from pyrofit.show.matrix import draw_matrix
-from pyrofit.show.sections import FIGURES, make_figure, make_named, make_subject
-from pyrofit.show.validation.fig3 import fig3
+from pyrofit.show.sections import FIGURES, make_named, make_subject
+from pyrofit.show.subjects.identification.profiles import profiles
+from pyrofit.show.subjects.kinetics.drawing import slope
+from pyrofit.show.subjects.kinetics.kinetics_all_rates import kinetics_all_rates
+from pyrofit.show.subjects.validation.fig3 import fig3
 
 OF_OTHER_STUDIES = {"heats", "unmeasured"}
 """Figures of quantities and experiments that the faked study lacks."""
@@ -46,11 +46,11 @@ def test_every_figure_is_written_twice_and_its_svg_alike_each_time(
     name: str, tmp_path: Path
 ) -> None:
     study, results = fake(tmp_path)
-    make_figure(name, study, results)
+    make_named(name, study, results)
     folder = tmp_path / "figures"
     first = (folder / f"{name}.svg").read_bytes()
     assert (folder / f"{name}.png").stat().st_size > 5000
-    make_figure(name, study, results)
+    make_named(name, study, results)
     assert (folder / f"{name}.svg").read_bytes() == first
     assert b"<dc:date>" not in first
     assert b"synthetic" not in first
@@ -62,7 +62,7 @@ def test_synthetic_data_are_named_in_every_title(name: str, tmp_path: Path) -> N
     if name in {"other_signals", *OF_OTHER_STUDIES}:
         assert not FIGURES[name].applies(study)
         return
-    make_figure(name, study, results)
+    make_named(name, study, results)
     # Text is drawn as paths; the SVG keeps it as comments.
     assert "(synthetic data) -->" in (tmp_path / "figures" / f"{name}.svg").read_text()
 
@@ -80,7 +80,7 @@ def test_any_number_of_costs_and_experiments_is_drawn(number: int, tmp_path: Pat
     study, results = fake(tmp_path, given)
     for name, figure in FIGURES.items():
         if figure.applies(study):
-            make_figure(name, study, results)
+            make_named(name, study, results)
     drawn = {path.stem for path in (tmp_path / "figures").glob("*.svg")}
     missing = {"fig4", "other_signals"} if number == 1 else set()
     assert drawn == set(FIGURES) - missing - OF_OTHER_STUDIES
@@ -102,7 +102,7 @@ def test_figures_of_what_a_study_lacks_do_not_apply() -> None:
 def test_drawing_leaves_matplotlibs_settings_alone(tmp_path: Path) -> None:
     study, results = fake(tmp_path)
     before = dict(mpl.rcParams)
-    make_figure("fig5", study, results)
+    make_named("fig5", study, results)
     assert dict(mpl.rcParams) == before
 
 

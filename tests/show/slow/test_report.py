@@ -6,7 +6,7 @@ from typing import Any
 
 import pandas as pd
 import pytest
-from report_pages import Page, write_tables, written
+from report_pages import Page, tables_of, write_tables, written
 from shown_studies import described, fake, made, synthetic
 
 from pyrofit.analysis.answer import one_each
@@ -18,13 +18,13 @@ from pyrofit.model.parameters import Parameter
 from pyrofit.results import identification
 from pyrofit.results.files import Results, read_csv, read_json, write_csv, write_json, write_text
 from pyrofit.results.step import write_options
-from pyrofit.show.answer.next_steps import advice, next_steps
-from pyrofit.show.answer.summary import summary
 from pyrofit.show.facts import Facts, facts_of
-from pyrofit.show.report import tables_of, write_report
+from pyrofit.show.report import write_report
 from pyrofit.show.sections import FIGURES, TABLES
+from pyrofit.show.subjects.answer.next_steps import advice, next_steps
+from pyrofit.show.subjects.answer.summary import summary
+from pyrofit.show.subjects.truth.sentences import errors as sentences
 from pyrofit.show.table import write_table
-from pyrofit.show.truth.sentences import errors as sentences
 from pyrofit.steps.posterior import record as posterior
 from pyrofit.steps.rescore import record as rescored
 from pyrofit.steps.rescore.page import PAGE as RESCORE
@@ -394,7 +394,7 @@ def test_scores_under_other_costs_are_shown_once_they_are_there(tmp_path: Path) 
     matrix = pd.DataFrame({"cost": ["RMSE", "GPYRO"], "RMSE": [1.0, 0.5], "GPYRO": [0.5, 1.0]})
     for name in ("CORRELATION", "AMONG_BEST", "EXCESS", "BETTER"):
         write_csv(results.of_step("rescore", getattr(rescored, name)), matrix)
-    RESCORE.draw_and_write(study, results)
+    RESCORE.write(study, results)
     write_report(study, results)
     page = Page((tmp_path / "report.html").read_text())
     assert {"rescore", "rescore_agreement", "rescore_valleys"} <= set(page.ids)

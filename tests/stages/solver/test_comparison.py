@@ -19,11 +19,11 @@ from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.quantities import known_quantities
 from pyrofit.results import recorded, searches
 from pyrofit.results.files import Results, read_csv, write_csv
-from pyrofit.show.costs.reach import reach_of_good_sets as good_sets
-from pyrofit.show.costs.sentences import sentences as costs
 from pyrofit.show.facts import facts_of
-from pyrofit.show.optimisers.sentences import sentences as optimisers
 from pyrofit.show.sections import TABLES
+from pyrofit.show.subjects.costs.reach import reach_of_good_sets as good_sets
+from pyrofit.show.subjects.costs.sentences import sentences as costs
+from pyrofit.show.subjects.optimisation.sentences import sentences as optimisers
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages import compare, fit, measurements, predict
 

@@ -89,7 +89,7 @@ def results(study: Study, identified: Results, tmp_path_factory: pytest.TempPath
     found = copied(identified, tmp_path_factory.mktemp("drawn") / "smoke")
     run(study, found, print, 1)
     write_options(study, found, "posterior")
-    PAGE.draw_and_write(study, found)
+    PAGE.write(study, found)
     return found
 
 

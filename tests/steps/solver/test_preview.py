@@ -321,7 +321,7 @@ def test_step_leaves_all_its_files_where_nothing_is_compared(tmp_path: Path) -> 
     made = preview(study, {("plate_50", "mlr"): pd.DataFrame()})
     write_csv(results.of_step("preview", BANDS), made.bands)
     write(results, made.found)
-    PAGE.draw_and_write(study, results)
+    PAGE.write(study, results)
     left = {path.name for path in (tmp_path / "preview").iterdir()}
     # The folder of figures is left, too, but it is no output: Snakemake would mark it.
     assert left == {*INPUTS.files, *INPUTS.folders, "figures"}

@@ -43,7 +43,7 @@ def results(study: Study, tmp_path_factory: pytest.TempPathFactory) -> Results:
         fit.repeat(study, results, cost, range(study.imp.repetitions))
     run(study, results, print, 1)
     write_options(study, results, "rescore")
-    PAGE.draw_and_write(study, results)
+    PAGE.write(study, results)
     return results
 
 

@@ -141,7 +141,7 @@ def test_where_none_is_recovered_all_count(study: Study, tmp_path: Path) -> None
 
 def test_table_tests_the_cost_functions_level_by_level(study: Study, tmp_path: Path) -> None:
     results = fitted(study, tmp_path, k=0.3)
-    PAGE.draw_and_write(study, results)
+    PAGE.write(study, results)
     table = PAGE.tables["table"].make(study, results)
     assert list(table["added"].unique()) == [
         "noise × 0.001",
@@ -162,7 +162,7 @@ def test_table_tests_the_cost_functions_level_by_level(study: Study, tmp_path: P
 
 def test_sentences_say_errors_tests_and_what_is_left_out(study: Study, tmp_path: Path) -> None:
     results = fitted(study, tmp_path, k=0.3)
-    PAGE.draw_and_write(study, results)
+    PAGE.write(study, results)
     (text,) = sentences(study, results)
     assert "without k, which no cost function recovers" in text
     assert (
@@ -173,10 +173,10 @@ def test_sentences_say_errors_tests_and_what_is_left_out(study: Study, tmp_path:
 
 def test_figure_is_drawn_alike_each_time(study: Study, tmp_path: Path) -> None:
     results = fitted(study, tmp_path, k=0.1)
-    PAGE.draw_and_write(study, results)
+    PAGE.write(study, results)
     path = results.of_step("robustness", "robustness.svg")
     first = path.read_bytes()
-    PAGE.draw_and_write(study, results)
+    PAGE.write(study, results)
     assert path.read_bytes() == first
     assert results.of_step("robustness", "robustness.png").exists()
 

@@ -6,7 +6,7 @@ from pyrofit.config import Study
 from pyrofit.results import diagnosis
 from pyrofit.results.files import Results
 from pyrofit.show.diagnosis.words import effect_name
-from pyrofit.show.table import Table, always
+from pyrofit.show.table import Table
 
 
 def accord(study: Study, results: Results) -> pd.DataFrame:
@@ -27,8 +27,7 @@ def accord(study: Study, results: Results) -> pd.DataFrame:
 
 
 TABLE = Table(
-    place=58,
-    applies=always,
+    place=620,
     make=accord,
     title="Accord with known values",
     note="Fitted less known value, in stated standard deviations, of the model without the effect "

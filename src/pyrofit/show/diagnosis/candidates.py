@@ -16,7 +16,7 @@ from pyrofit.show.diagnosis.words import (
     ranked,
     remark,
 )
-from pyrofit.show.table import Table, always
+from pyrofit.show.table import Table
 
 
 def candidates(study: Study, results: Results) -> pd.DataFrame:
@@ -67,8 +67,7 @@ def _predictions(study: Study, gains: Mapping[str, float]) -> str:
 
 
 TABLE = Table(
-    place=32,
-    applies=always,
+    place=210,
     make=candidates,
     title="Candidates, the best first",
     note="Each is the base model with one effect more, or several, all parameters refitted. Of "

@@ -60,8 +60,7 @@ def curve_figures(study: Study, found: Diagnosis) -> dict[str, Figure]:
     order = sorted(measured.values(), key=lambda q: (q.against_temperature, not q.relative))
     return {
         quantity.title.replace(" ", "_"): Figure(
-            place=20 + i,
-            applies=bool,
+            place=110 + i,
             make=partial(_draw, quantity=quantity),
             title=f"{quantity.title.capitalize()}, before and after",
             caption=CAPTION,

@@ -78,7 +78,7 @@ def _bars(ax: Axes, rows: Sequence[OfScreen], critical: float) -> None:
 
 
 FIGURE = Figure(
-    place=62,
+    place=750,
     applies=lambda found: bool(found.screen) and bool(found.confusability.effects),
     make=effects,
     title="Detectability and confusability of the effects",

@@ -8,7 +8,7 @@ from pyrofit.results import diagnosis
 from pyrofit.results.diagnosis_schema import Diagnosis, OfEvidence
 from pyrofit.results.files import Results
 from pyrofit.show.diagnosis.words import HELD_OUT, effect_name, prediction_name, setting
-from pyrofit.show.table import Table, always
+from pyrofit.show.table import Table
 
 
 def evidence(study: Study, results: Results) -> pd.DataFrame:
@@ -58,8 +58,7 @@ def _predicted(study: Study, name: str) -> str:
 
 
 TABLE = Table(
-    place=55,
-    applies=always,
+    place=600,
     make=evidence,
     title="Confidence in the result",
     note="Weight: share of all fitted models, each weighed by its fit and number of parameters, "

@@ -8,7 +8,7 @@ from pyrofit.config import Study
 from pyrofit.results import diagnosis
 from pyrofit.results.files import Results
 from pyrofit.show.diagnosis.words import ROLES, quantity_of, words_of
-from pyrofit.show.table import Table, always
+from pyrofit.show.table import Table
 from pyrofit.show.units import difference, difference_unit
 
 
@@ -47,8 +47,7 @@ def gap(study: Study, results: Results) -> pd.DataFrame:
 
 
 TABLE = Table(
-    place=50,
-    applies=always,
+    place=500,
     make=gap,
     title="Errors before and after",
     note="Root mean square of simulated minus measured, before and after the effects of "

@@ -5,7 +5,7 @@ import pandas as pd
 from pyrofit.config import Study
 from pyrofit.results import diagnosis
 from pyrofit.results.files import Results
-from pyrofit.show.table import Table, always
+from pyrofit.show.table import Table
 
 FAR = 3.0
 """Difference in standard deviations that is told."""
@@ -34,8 +34,7 @@ def kinetics_alone(study: Study, results: Results) -> pd.DataFrame:
 
 
 TABLE = Table(
-    place=59,
-    applies=always,
+    place=630,
     make=kinetics_alone,
     title="Kinetics of the small samples",
     note="The final model fitted to TGA, DSC and MCC alone, and to all signals. The difference is "

@@ -13,7 +13,7 @@ from pyrofit.show.diagnosis.effects import LIMIT
 from pyrofit.show.diagnosis.words import MOST
 from pyrofit.show.drawn import Canvas
 from pyrofit.show.figure import Figure
-from pyrofit.show.table import Table, always
+from pyrofit.show.table import Table
 
 
 def next_experiments(study: Study, results: Results) -> pd.DataFrame:
@@ -63,8 +63,7 @@ def draw_next_experiments(study: Study, results: Results) -> Canvas:
 
 
 TABLE = Table(
-    place=70,
-    applies=always,
+    place=800,
     make=next_experiments,
     title="Next experiments",
     note="Separation of the two models that the experiment separates least, in standard "
@@ -75,7 +74,7 @@ TABLE = Table(
 
 
 FIGURE = Figure(
-    place=70,
+    place=850,
     applies=lambda found: bool(found.next_experiment),
     make=draw_next_experiments,
     title="Next experiments",

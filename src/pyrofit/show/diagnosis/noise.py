@@ -7,7 +7,7 @@ from pyrofit.config import Study
 from pyrofit.results import diagnosis
 from pyrofit.results.files import Results
 from pyrofit.show.diagnosis.words import ROLES, quantity_of, words_of
-from pyrofit.show.table import Table, always
+from pyrofit.show.table import Table
 from pyrofit.show.units import difference, difference_unit
 
 
@@ -32,8 +32,7 @@ def noise(study: Study, results: Results) -> pd.DataFrame:
 
 
 TABLE = Table(
-    place=61,
-    applies=always,
+    place=710,
     make=noise,
     title="Noise of the signals, and how the base fits them",
     note="Stated with the data or estimated from their scatter, as the column noise says; sd is "

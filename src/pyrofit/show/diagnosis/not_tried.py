@@ -6,7 +6,7 @@ from pyrofit.config import Study
 from pyrofit.results import diagnosis
 from pyrofit.results.files import Results
 from pyrofit.show.diagnosis.words import effect_name
-from pyrofit.show.table import Table, always
+from pyrofit.show.table import Table
 
 
 def not_tried(study: Study, results: Results) -> pd.DataFrame:
@@ -17,8 +17,7 @@ def not_tried(study: Study, results: Results) -> pd.DataFrame:
 
 
 TABLE = Table(
-    place=34,
-    applies=always,
+    place=300,
     make=not_tried,
     title="Effects that were not tried",
     note="These effects of the catalogue are no candidates in this study.",

@@ -8,7 +8,7 @@ from pyrofit.config.resolve import calibrated
 from pyrofit.results import diagnosis
 from pyrofit.results.files import Results
 from pyrofit.show.diagnosis.words import leading
-from pyrofit.show.table import Table, always
+from pyrofit.show.table import Table
 
 
 def parameters(study: Study, results: Results) -> pd.DataFrame:
@@ -41,8 +41,7 @@ _AFTER = {"extended": "value", "extended_low": "low", "extended_high": "high"}
 
 
 TABLE = Table(
-    place=60,
-    applies=always,
+    place=700,
     make=parameters,
     title="Parameters of the model",
     note="95 % intervals, each model taken as right. A parameter at a limit may compensate for a "

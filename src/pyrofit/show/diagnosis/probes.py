@@ -12,7 +12,7 @@ from pyrofit.results.files import Results
 from pyrofit.show import style
 from pyrofit.show.drawn import Canvas
 from pyrofit.show.figure import Figure
-from pyrofit.show.table import Table, always
+from pyrofit.show.table import Table
 from pyrofit.show.units import celsius
 
 
@@ -55,8 +55,7 @@ def draw_probes(study: Study, results: Results) -> Canvas:
 
 
 TABLE = Table(
-    place=40,
-    applies=always,
+    place=400,
     make=probes,
     title="Free corrections that absorb the misfit",
     note="Each is a free curve in one place of the model, added to the model with the effects "
@@ -67,7 +66,7 @@ TABLE = Table(
 
 
 FIGURE = Figure(
-    place=40,
+    place=410,
     applies=lambda found: bool(_absorbing(found)),
     make=draw_probes,
     title="Free corrections that absorb the misfit",

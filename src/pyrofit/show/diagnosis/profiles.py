@@ -54,7 +54,7 @@ def profiles(study: Study, results: Results) -> Canvas:
 
 
 FIGURE = Figure(
-    place=31,
+    place=250,
     applies=lambda found: bool(found.profiles),
     make=profiles,
     title="Profile likelihood of the strengths",

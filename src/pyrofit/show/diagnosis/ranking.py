@@ -111,7 +111,7 @@ def _label(candidate: OfCandidate) -> str:
 
 
 FIGURE = Figure(
-    place=33,
+    place=260,
     applies=lambda found: bool(found.candidates),
     make=ranking,
     title="Candidates, the best first",

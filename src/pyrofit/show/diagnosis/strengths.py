@@ -9,7 +9,7 @@ from pyrofit.effects import known_effects
 from pyrofit.results import diagnosis
 from pyrofit.results.files import Results
 from pyrofit.show.diagnosis.words import effect_name, leading
-from pyrofit.show.table import Table, always
+from pyrofit.show.table import Table
 
 
 def strengths(study: Study, results: Results) -> pd.DataFrame:
@@ -47,8 +47,7 @@ def _wider(wider: Callable[[float, float], float], end: float | None, of: float)
 
 
 TABLE = Table(
-    place=30,
-    applies=always,
+    place=200,
     make=strengths,
     title="Missing effects and their strengths",
     note="95 % intervals: of the strengths by profile likelihood, of other parameters linear about "

@@ -6,7 +6,7 @@ from pyrofit.config import Study
 from pyrofit.results import diagnosis
 from pyrofit.results.files import Results
 from pyrofit.show.diagnosis.words import effect_name
-from pyrofit.show.table import Table, always
+from pyrofit.show.table import Table
 
 
 def taken_away(study: Study, results: Results) -> pd.DataFrame:
@@ -16,8 +16,7 @@ def taken_away(study: Study, results: Results) -> pd.DataFrame:
 
 
 TABLE = Table(
-    place=57,
-    applies=always,
+    place=610,
     make=taken_away,
     title="Effects that are not claimed",
     note="The search ended with these effects as well. Each was taken away, in this order, because "

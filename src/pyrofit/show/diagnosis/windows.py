@@ -11,7 +11,7 @@ from pyrofit.results import diagnosis
 from pyrofit.results.diagnosis_schema import OfWindow
 from pyrofit.results.files import Results
 from pyrofit.show.diagnosis.words import MODELS, quantity_of, words_of
-from pyrofit.show.table import Row, Table, always
+from pyrofit.show.table import Row, Table
 from pyrofit.show.units import celsius, difference, difference_unit
 
 
@@ -50,8 +50,7 @@ def between(pair: Sequence[float] | None, digits: str) -> str | None:
 
 
 TABLE = Table(
-    place=10,
-    applies=always,
+    place=100,
     make=windows,
     title="Where model and measurement disagree",
     note="Intervals in which the residuals are biased more strongly than by noise: 1 % of studies "

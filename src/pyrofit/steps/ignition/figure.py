@@ -9,7 +9,6 @@ from pyrofit.results.files import Results
 from pyrofit.show import style
 from pyrofit.show.drawn import Canvas
 from pyrofit.show.figure import Figure
-from pyrofit.show.table import always
 from pyrofit.steps.ignition.record import read
 from pyrofit.steps.ignition.times import DEFINITIONS
 
@@ -46,7 +45,6 @@ def draw(study: Study, results: Results) -> Canvas:
 FIGURES = {
     "fluxes": Figure(
         place=10,
-        applies=always,
         make=draw,
         title="Times to ignition against the radiant flux",
         caption="Inverse square root of the time to ignition by each definition. A thermally thick "

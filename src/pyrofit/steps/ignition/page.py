@@ -4,8 +4,8 @@ import pandas as pd
 
 from pyrofit.config import Study
 from pyrofit.results.files import Results
-from pyrofit.show.step_page import StepPage
-from pyrofit.show.table import Table, always
+from pyrofit.show.page import page_of_step
+from pyrofit.show.table import Table
 from pyrofit.steps.ignition import record
 from pyrofit.steps.ignition.figure import FIGURES
 from pyrofit.steps.ignition.times import DEFINITIONS
@@ -79,22 +79,20 @@ def sentences(study: Study, results: Results) -> list[str]:
     return said
 
 
-PAGE = StepPage(
-    folder="ignition",
+PAGE = page_of_step(
+    "ignition",
     heading="Ignition",
     text="Times to ignition by the usual definitions, and lines of t^-n over the radiant flux: the "
     "critical heat flux, and the thermal response parameter.",
     tables={
         "times": Table(
-            place=10,
-            applies=always,
+            place=60,
             make=times,
             title="Times to ignition [s]",
             note="; ".join(f"{name}: {words}" for name, words in DEFINITIONS.items()),
         ),
         "lines": Table(
-            place=20,
-            applies=always,
+            place=70,
             make=lines,
             title="Critical heat flux and thermal response",
             note="Intervals of 95 %, that of the critical flux by Fieller's theorem. Response: "
@@ -104,6 +102,4 @@ PAGE = StepPage(
     },
     figures=FIGURES,
     sentences=sentences,
-    tables_shown=("times", "lines"),
-    figures_shown=("fluxes",),
 )

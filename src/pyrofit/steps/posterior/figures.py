@@ -12,7 +12,6 @@ from pyrofit.show import style
 from pyrofit.show.curves import label_axes, label_of
 from pyrofit.show.drawn import Axes, Canvas, Line2D, Look, Patch
 from pyrofit.show.figure import Figure
-from pyrofit.show.table import always
 from pyrofit.show.units import shown
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.steps.posterior import record
@@ -109,7 +108,6 @@ def _draw_parameter(ax: Axes, study: Study, of: OfParameter, draws: FloatArray) 
 FIGURES = {
     "bands": Figure(
         place=10,
-        applies=always,
         make=bands,
         title="Predicted signals with 95 % bands",
         caption="The dark band contains the uncertainty of the parameters alone. The light band "
@@ -119,7 +117,6 @@ FIGURES = {
     ),
     "parameters": Figure(
         place=20,
-        applies=always,
         make=parameters,
         title="Distribution of the parameters",
         caption="Draws from the posterior; bars: 95 % intervals, marks: means.",

@@ -5,7 +5,7 @@ import pandas as pd
 
 from pyrofit.config import Study
 from pyrofit.results.files import Results
-from pyrofit.show.table import Table, always
+from pyrofit.show.table import Table
 from pyrofit.steps.posterior import record
 
 
@@ -72,8 +72,7 @@ def bands(study: Study, results: Results) -> pd.DataFrame:
 
 TABLES = {
     "parameters": Table(
-        place=10,
-        applies=always,
+        place=60,
         make=parameters,
         title="Parameters by sampling",
         note="95 % interval: 2.5 and 97.5 % quantiles of the draws. R-hat compares independent "
@@ -86,14 +85,13 @@ TABLES = {
         },
     ),
     "correlations": Table(
-        place=20,
-        applies=always,
+        place=70,
         make=correlations,
         title="Correlation of the parameters by sampling",
+        shown=False,
     ),
     "lacking": Table(
-        place=30,
-        applies=always,
+        place=80,
         make=lacking,
         title="Model discrepancy of each fitted signal",
         note="Standard deviations of the relative errors of level and time, and of the offset over "
@@ -102,8 +100,7 @@ TABLES = {
         headings={"lasting": "correlation time"},
     ),
     "bands": Table(
-        place=40,
-        applies=always,
+        place=90,
         make=bands,
         title="Widths of the 95 % bands",
         note="Mean widths over the range of the curve, for parameters alone and with model "

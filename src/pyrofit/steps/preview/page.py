@@ -2,7 +2,7 @@
 
 from pyrofit.config import Study
 from pyrofit.results.files import Results
-from pyrofit.show.step_page import StepPage
+from pyrofit.show.page import page_of_step
 from pyrofit.steps.preview import record
 from pyrofit.steps.preview.figures import draw_all, read_bands
 from pyrofit.steps.preview.sentences import sentences
@@ -15,14 +15,12 @@ def _figures(study: Study, results: Results) -> None:
     draw_all(study, read_bands(results), record.read(results), results, "preview/figures")
 
 
-PAGE = StepPage(
-    folder="preview",
+PAGE = page_of_step(
+    "preview",
     heading="Data against limits",
     text="The data before the band of curves that the limits allow.",
     tables=TABLES,
     figures={},
     sentences=sentences,
-    tables_shown=tuple(TABLES),
-    figures_shown=(),
     finish=_figures,
 )

@@ -4,7 +4,7 @@ import pandas as pd
 
 from pyrofit.config import Study
 from pyrofit.results.files import Results
-from pyrofit.show.table import Table, always
+from pyrofit.show.table import Table
 from pyrofit.steps.preview import record
 from pyrofit.steps.preview.sentences import size, span
 
@@ -44,16 +44,14 @@ def causes(study: Study, results: Results) -> pd.DataFrame:
 
 TABLES = {
     "outside": Table(
-        place=10,
-        applies=always,
+        place=60,
         make=outside,
         title="Data outside all that the limits allow",
         note="Largest: distance from the band of all sets. Share: the same over the range.",
         headings={"largest": "largest distance", "share_percent": "share [%]"},
     ),
     "causes": Table(
-        place=20,
-        applies=always,
+        place=70,
         make=causes,
         title="Likely causes",
         note="Explained: part of the squared difference between data and nearest set that the "

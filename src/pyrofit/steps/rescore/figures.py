@@ -9,7 +9,6 @@ from pyrofit.show import style
 from pyrofit.show.drawn import Canvas
 from pyrofit.show.figure import Figure
 from pyrofit.show.matrix import draw_matrix
-from pyrofit.show.table import always
 from pyrofit.steps.rescore import record
 from pyrofit.steps.rescore.facts import correlation, of_shown, shown
 
@@ -67,7 +66,6 @@ def valleys(study: Study, results: Results) -> Canvas:
 FIGURES = {
     "agreement": Figure(
         place=10,
-        applies=always,
         make=agreement,
         title="How the costs agree in ranking the stored sets",
         caption="Spearman's rank correlation over the stored sets: 1 (dark red) means the same "
@@ -76,7 +74,6 @@ FIGURES = {
     ),
     "agreement_best": Figure(
         place=15,
-        applies=always,
         make=agreement_best,
         title=f"How the costs agree in ranking the best {100.0 * GOOD:g} % of the sets",
         caption=f"Rank correlation of two costs over the best {100.0 * GOOD:g} % of the sets of "
@@ -85,15 +82,14 @@ FIGURES = {
     ),
     "regret": Figure(
         place=20,
-        applies=always,
         make=regret,
         title="The stored set with the lowest value of one cost, under another cost",
         caption="Share of the stored sets that the cost of the column finds better than the "
         "set with the lowest cost of the row. 0 means that both costs choose the same set.",
+        shown=False,
     ),
     "valleys": Figure(
         place=30,
-        applies=always,
         make=valleys,
         title="Where the valleys of the costs lie",
         caption=f"Bars: range of each parameter over the best {100.0 * VALLEY:g} % of the stored "

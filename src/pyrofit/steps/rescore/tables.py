@@ -5,7 +5,7 @@ import pandas as pd
 from pyrofit.analysis.rescoring import VALLEY
 from pyrofit.config import Study
 from pyrofit.results.files import Results
-from pyrofit.show.table import Row, Table, always
+from pyrofit.show.table import Row, Table
 from pyrofit.steps.rescore import record
 from pyrofit.steps.rescore.facts import in_units, of_shown
 
@@ -61,8 +61,7 @@ def valleys(study: Study, results: Results) -> pd.DataFrame:
 
 TABLES = {
     "best": Table(
-        place=10,
-        applies=always,
+        place=60,
         make=best,
         title="Best stored set of every cost",
         note="Lowest of all stored sets that were scored, whatever they were fitted with. 'Ranks "
@@ -74,28 +73,28 @@ TABLES = {
         },
     ),
     "rank_correlation": Table(
-        place=20,
-        applies=always,
+        place=70,
         make=correlations,
         title="Rank correlation of the costs over the stored sets",
         note="Spearman's correlation. Costs that rank as another one are left out.",
+        shown=False,
     ),
     "regret": Table(
-        place=30,
-        applies=always,
+        place=80,
         make=excess,
         title="The stored set with the lowest value of one cost, under another cost",
         note="Excess over the lowest value of the cost in the column, in per cent of that value. "
         "Empty where that is 0.",
         headings={"best_of": "best set of"},
+        shown=False,
     ),
     "valleys": Table(
-        place=40,
-        applies=always,
+        place=90,
         make=valleys,
         title="Where the valley of every cost lies",
         note=f"Range of each parameter over the best {100.0 * VALLEY:g} % of the sets of a cost, "
         "and the set with its lowest value. Both in per cent of the search range.",
         group_by="cost",
+        shown=False,
     ),
 }

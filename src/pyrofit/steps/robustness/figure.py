@@ -10,7 +10,6 @@ from pyrofit.results.files import Results
 from pyrofit.show import style
 from pyrofit.show.drawn import Axes, Canvas
 from pyrofit.show.figure import Figure
-from pyrofit.show.table import always
 from pyrofit.steps.robustness.twins import NOISE, OUTLIERS, errors
 
 _ASIDE = 0.14
@@ -69,7 +68,6 @@ def _draw(ax: Axes, study: Study, frame: pd.DataFrame, column: str) -> None:
 
 FIGURE = Figure(
     place=10,
-    applies=always,
     make=robustness,
     title="Twins of known truth",
     caption="Errors of the fits against how much noise (left) and how many outliers (right) "

@@ -8,7 +8,7 @@ import pandas as pd
 from pyrofit.analysis import groups
 from pyrofit.config import Study
 from pyrofit.results.files import Results
-from pyrofit.show.table import Row, Table, always
+from pyrofit.show.table import Row, Table
 from pyrofit.steps.robustness.twins import NOISE, RECOVERED, errors
 
 
@@ -69,8 +69,7 @@ def _words(kind: Any, level: Any) -> str:
 
 
 TABLE = Table(
-    place=10,
-    applies=always,
+    place=60,
     make=robustness,
     title="Robustness of the cost functions on twins of known truth",
     note="Twins: curves of the model itself with white noise. Its standard deviation is "

@@ -8,8 +8,7 @@ from pyrofit.results.files import Results
 from pyrofit.show import style
 from pyrofit.show.drawn import Axes, Canvas, Look
 from pyrofit.show.figure import Figure
-from pyrofit.show.kinetics.drawing import rate_of, slope
-from pyrofit.show.table import always
+from pyrofit.show.subjects.kinetics.drawing import rate_of, slope
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.steps.scheme import record
 
@@ -78,7 +77,6 @@ def _draw_slope(ax: Axes, temperature: FloatArray, mass: FloatArray, look: Look)
 
 FIGURE = Figure(
     place=10,
-    applies=always,
     make=draw,
     title="Reaction scheme of the study and the chosen one",
     caption="At every heating rate, the slowest at the top: mass over initial mass (left), "

@@ -2,8 +2,8 @@
 
 from pyrofit.config import Study
 from pyrofit.results.files import Results
-from pyrofit.show.parts import Part
-from pyrofit.show.step_page import StepPage
+from pyrofit.show.page import page_of_step
+from pyrofit.show.parts import Part, study_to_run
 from pyrofit.steps.scheme import record
 from pyrofit.steps.scheme.figure import FIGURE
 from pyrofit.steps.scheme.tables import PARAMETERS, SCHEMES
@@ -15,26 +15,17 @@ def _sentences(study: Study, results: Results) -> list[str]:
 
 
 def _extended(study: Study, results: Results) -> list[Part]:
-    path = results.of_step("scheme", record.read(study, results).extended_study).as_posix()
-    return [
-        Part(
-            "The study with the chosen scheme",
-            text=f"{path} is this study with the chosen scheme at its fitted values. It is a "
-            "study like any other:",
-            command=f"snakemake --cores 2 --configfile {path}",
-        )
-    ]
+    path = results.of_step("scheme", record.read(study, results).extended_study)
+    return [study_to_run("chosen scheme", "chosen scheme at its fitted values", path)]
 
 
-PAGE = StepPage(
-    folder="scheme",
+PAGE = page_of_step(
+    "scheme",
     heading="Reaction scheme",
     text="The scheme that predicts heating rates left out of its fit.",
     tables={"schemes": SCHEMES, "parameters": PARAMETERS},
     figures={"scheme": FIGURE},
     sentences=_sentences,
-    tables_shown=("schemes", "parameters"),
-    figures_shown=("scheme",),
     prefix="",
     more=_extended,
 )

@@ -4,7 +4,7 @@ import pandas as pd
 
 from pyrofit.config import Study
 from pyrofit.results.files import Results
-from pyrofit.show.table import Row, Table, always
+from pyrofit.show.table import Row, Table
 from pyrofit.steps.scheme import record
 from pyrofit.steps.scheme.record import OfScheme
 
@@ -54,8 +54,7 @@ def parameters(study: Study, results: Results) -> pd.DataFrame:
 
 
 SCHEMES = Table(
-    place=10,
-    applies=always,
+    place=60,
     make=schemes,
     title="Reaction schemes and their predictions",
     note="BIC: above the least one. Log score: log density of all heating rates, each "
@@ -73,8 +72,7 @@ SCHEMES = Table(
     },
 )
 PARAMETERS = Table(
-    place=20,
-    applies=always,
+    place=70,
     make=parameters,
     title="Parameters of the chosen scheme",
     note="Linear 95 % intervals within the limits. A reference temperature is that at which the "

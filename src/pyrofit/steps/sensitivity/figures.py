@@ -9,7 +9,6 @@ from pyrofit.results.files import Results
 from pyrofit.show import style, units
 from pyrofit.show.drawn import Axes, Canvas, Look
 from pyrofit.show.figure import Figure
-from pyrofit.show.table import always
 from pyrofit.steps.sensitivity import record
 from pyrofit.steps.sensitivity.facts import (
     curve,
@@ -151,7 +150,6 @@ def costs(study: Study, results: Results) -> Canvas:
 FIGURES = {
     "total": Figure(
         place=10,
-        applies=always,
         make=total,
         title="On which estimated parameters the signals depend",
         caption="Total index of the parameters that matter most: share of the variance at a time "
@@ -160,7 +158,6 @@ FIGURES = {
     ),
     "apparatus": Figure(
         place=15,
-        applies=always,
         make=apparatus,
         title="On which other values the signals depend",
         caption="The same of known values and of the apparatus, which vary within their "
@@ -168,15 +165,14 @@ FIGURES = {
     ),
     "first": Figure(
         place=20,
-        applies=always,
         make=first,
         title="Shares of the variance that inputs make alone",
         caption="Index of first order, stacked. The rest is made in combination: its causes "
         "cannot be told apart from this signal at this time.",
+        shown=False,
     ),
     "costs": Figure(
         place=30,
-        applies=always,
         make=costs,
         title="Which cost sees which parameter",
         caption="Total index of every cost. Left of the white line estimated parameters, right of "

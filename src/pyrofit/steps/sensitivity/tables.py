@@ -4,7 +4,7 @@ import pandas as pd
 
 from pyrofit.config import Study
 from pyrofit.results.files import Results, read_csv
-from pyrofit.show.table import Row, Table, always
+from pyrofit.show.table import Row, Table
 from pyrofit.steps.sensitivity import record
 from pyrofit.steps.sensitivity.facts import distribution, short, shown
 
@@ -44,8 +44,7 @@ def costs(study: Study, results: Results) -> pd.DataFrame:
 
 TABLES = {
     "inputs": Table(
-        place=10,
-        applies=always,
+        place=60,
         make=inputs,
         title="Inputs, and their part in the variance of the signals",
         note="Part: total variance of an input over the record, divided by all variance. Parts add "
@@ -54,10 +53,10 @@ TABLES = {
         headings={"what": "what it is"},
     ),
     "costs": Table(
-        place=20,
-        applies=always,
+        place=70,
         make=costs,
         title="Total index of the costs",
         note="With the 95 % interval of the bootstrap.",
+        shown=False,
     ),
 }

@@ -10,7 +10,6 @@ from pyrofit.show import style
 from pyrofit.show.diagnosis.words import effect_name
 from pyrofit.show.drawn import Canvas
 from pyrofit.show.figure import Figure
-from pyrofit.show.table import always
 from pyrofit.steps.stability.facts import read
 
 MOST = 16
@@ -51,7 +50,6 @@ def draw(study: Study, results: Results) -> Canvas:
 FIGURES = {
     "stability": Figure(
         place=10,
-        applies=always,
         make=draw,
         title="How often disturbed data lead to each effect",
         caption="Share of the disturbed data sets whose verdict claims an effect (dark), and whose "

@@ -6,7 +6,7 @@ from pyrofit.config import Study
 from pyrofit.results.diagnosis_schema import OfVerdict
 from pyrofit.results.files import Results
 from pyrofit.show.diagnosis.words import effect_name
-from pyrofit.show.table import Row, Table, always
+from pyrofit.show.table import Row, Table
 from pyrofit.steps.stability.facts import claimed_by, read, unit_of
 from pyrofit.steps.stability.record import OfDraw
 
@@ -73,8 +73,7 @@ def _listed(effects: list[str]) -> str:
 
 TABLES = {
     "effects": Table(
-        place=10,
-        applies=always,
+        place=60,
         make=effects,
         title="Effects found in disturbed data",
         note="Claimed: share of the disturbed data sets whose verdict claims the effect. In the "
@@ -90,8 +89,7 @@ TABLES = {
         },
     ),
     "draws": Table(
-        place=20,
-        applies=always,
+        place=70,
         make=draws,
         title="Verdict on each disturbed data set",
         note="Claimed: effects in the verdict. Model: those of the model that the search ended "

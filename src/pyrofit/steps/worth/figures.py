@@ -9,7 +9,6 @@ from pyrofit.results.files import Results
 from pyrofit.show import style
 from pyrofit.show.drawn import Canvas
 from pyrofit.show.figure import Figure
-from pyrofit.show.table import always
 from pyrofit.steps.worth import record
 from pyrofit.steps.worth.facts import LITTLE, remaining, symbol
 from pyrofit.steps.worth.record import OfTest, Worth
@@ -53,7 +52,6 @@ def _narrowed(found: Worth, tests: Sequence[OfTest]) -> list[str]:
 FIGURES = {
     "worth": Figure(
         place=10,
-        applies=always,
         make=draw,
         title="Standard deviations that planned tests leave",
         caption="Left of the white line parameters, right of it predicted curves (root mean square "

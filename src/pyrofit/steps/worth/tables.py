@@ -4,7 +4,7 @@ import pandas as pd
 
 from pyrofit.config import Study
 from pyrofit.results.files import Results
-from pyrofit.show.table import Row, Table, always
+from pyrofit.show.table import Row, Table
 from pyrofit.show.units import difference, difference_unit
 from pyrofit.steps.worth import record
 from pyrofit.steps.worth.facts import label, remaining
@@ -45,8 +45,7 @@ def _row(
 
 TABLES = {
     "worth": Table(
-        place=10,
-        applies=always,
+        place=60,
         make=tests,
         title="Worth of planned tests",
         note="First row: standard deviations with the data so far, widened by the dispersion. "
