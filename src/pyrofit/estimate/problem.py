@@ -11,14 +11,14 @@ from pyrofit.config import Study, TermSpec
 from pyrofit.config.uses import parameters_in
 from pyrofit.cost import WeightedSum
 from pyrofit.estimate.distinct_sets import Indices, distinct_sets, taken
-from pyrofit.estimate.run import Run, is_alike
+from pyrofit.estimate.run import Run, asked_together, is_alike, own_curves
 from pyrofit.estimate.targets import Measurements, term_for
 from pyrofit.experiments import kind_of
 from pyrofit.experiments.base import Simulate
 from pyrofit.model.accuracy import Accuracy
 from pyrofit.model.material import Material
 from pyrofit.solver.arrays import FloatArray, Status, Values
-from pyrofit.solver.curves import Curves
+from pyrofit.solver.curves import Curves, Request
 
 FAILED_COST = 1e12
 """Cost of a run that did not finish: finite, and worse than any run that did."""
@@ -103,8 +103,8 @@ class Problem:
     ) -> dict[str, list[Curves]]:
         """Return the curves by experiment and set; kinds with one solver in one call.
 
-        Repeats that are described alike and recorded at the same times are simulated once. The
-        same holds for sets that differ only in numbers of other experiments. ``names`` are the
+        Repeats that are described alike are simulated once, up to the end of the longest record.
+        The same holds for sets that differ only in numbers of other experiments. ``names`` are the
         experiments, by default all.
         """
         together: dict[tuple[Simulate, bytes], list[str]] = {}
@@ -122,12 +122,18 @@ class Problem:
         for (simulate, key), names in together.items():
             first, of_set = distinct[key]
             experiments = [self.runs[name].experiment for name in names]
-            asked = [self.runs[name].requests for name in names]
+            asked = [self._asked[name] for name in names]
             at = taken(values, first, sets)
             found = simulate(experiments, self.material, at, asked, self.accuracy, first.size)
             for name, own in zip(names, found, strict=True):
                 curves[name] = [own[i] for i in of_set]
-        return {name: curves[first] for name, first in shown.items()}
+        return {
+            name: [
+                own_curves(curve, self._asked[first], self.runs[name].requests)
+                for curve in curves[first]
+            ]
+            for name, first in shown.items()
+        }
 
     @cached_property
     def _used(self) -> dict[str, tuple[str, ...]]:
@@ -145,6 +151,14 @@ class Problem:
             same = (n for n in dict.fromkeys(found.values()) if is_alike(self.runs[n], run))
             found[name] = next(same, name)
         return found
+
+    @cached_property
+    def _asked(self) -> dict[str, dict[str, Request]]:
+        """The requests of all runs that are simulated together, by the first one's name."""
+        together: dict[str, list[Run]] = {}
+        for name, first in self.alike.items():
+            together.setdefault(first, []).append(self.runs[name])
+        return {first: asked_together(runs) for first, runs in together.items()}
 
     def _picked(self, curves: Mapping[str, Curves]) -> Outcome:
         for name in self.runs:
