@@ -143,6 +143,23 @@ def test_order_of_the_sets_does_not_matter(name: str, threads: int) -> None:
         assert_same(some(name, order, threads), [alone[s] for s in order])
 
 
+@pytest.mark.parametrize(("spread", "groups"), [(1.0, 1), (20.0, 0)])
+def test_sets_whose_cells_differ_much_run_one_by_one(
+    spread: float, groups: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from pyrofit.solver.kernels import slab
+
+    calls: list[Any] = []
+    together = slab.slabs
+    monkeypatch.setattr(slab, "slabs", lambda *given: calls.append(given) or together(*given))
+    experiment, material, values, _ = box("capa_60")
+    alike: dict[str, float | FloatArray] = {n: np.full(LANES, v[0]) for n, v in values.items()}
+    alike["k_a"] = 0.2 / np.array([*[1.0] * (LANES - 1), spread])
+    found = checked(experiment, material, alike, LANES)
+    assert found[-1].cells >= 0.5 * spread * found[0].cells
+    assert len(calls) == groups
+
+
 @both
 def test_set_is_the_same_in_every_lane(name: str) -> None:
     # The sort by cells keeps the order of equals: each set comes to every lane among its like.
