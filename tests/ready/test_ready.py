@@ -2,6 +2,9 @@
 
 import importlib.metadata
 import shutil
+import subprocess
+import sys
+import time
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -10,13 +13,13 @@ import pytest
 
 from pyrofit import cli
 from pyrofit.config import Study, read_study
-from pyrofit.estimate.calls import sceua_calls
+from pyrofit.estimate.calls import optimiser_calls, sceua_calls
 from pyrofit.estimate.problem import Evaluation
-from pyrofit.ready import machine, plan, report, slurm
+from pyrofit.ready import machine, plan, report, slurm, timing
 from pyrofit.ready.data import data
 from pyrofit.ready.finding import Check, Finding, Situation
-from pyrofit.ready.timing import duration, estimate_of
-from pyrofit.ready.whole_run import Work
+from pyrofit.ready.timing import Timed, duration, estimate_of
+from pyrofit.ready.whole_run import Work, processor_s
 from pyrofit.solver.arrays import Status
 
 ROOT = Path(__file__).parents[2]
@@ -250,17 +253,52 @@ def test_jobs_are_grouped_as_the_workflow_groups_them(
 
 
 def test_duration_is_that_of_steps_alone_and_of_the_others_over_cores() -> None:
-    part = plan.Part("RMSE", alone=1000.0, together=4000.0, jobs=10)
+    part = plan.Part("RMSE", alone=1000.0, together=3000.0, jobs=10, exact=200.0)
     beside = [Work(7.0, alone=True), Work(4.0, jobs=2)]
-    found = estimate_of(Situation(None, Path(), 2), [(part, 0.02, 0.01)], beside, 3.0)
+    fit = Timed(part, alone=0.02, together=0.01, exact=0.05)
+    found = estimate_of(Situation(None, Path(), 2), [fit], beside, 3.0)
     assert found.level == "ok"
-    # Alone 7 s + 3 s; the others 2 (1000 x 0.02 s + 4000 x 0.01 s) + 4 s + 12 x 3 s = 160 s.
+    # The searches: 2 (1000 x 0.02 s + 3000 x 0.01 s + 200 x 0.05 s) = 120 s.
+    # Alone 7 s + 3 s; the others 120 s + 4 s + 12 x 3 s = 160 s.
     assert found.text.startswith(
-        "about 90 s for the run on 2 cores. 5,000 model calls x 12 ms are for the searches, 11 s "
+        "about 90 s for the run on 2 cores. 4,200 model calls x 14 ms are for the searches, 11 s "
         "for their analysis and figures, 13 x 3 s to begin a step."
     )
-    slow = estimate_of(Situation(None, Path(), 2), [(part, 20.0, 40.0)], beside, 3.0)
+    slow = estimate_of(Situation(None, Path(), 2), [Timed(part, 20.0, 40.0, 40.0)], beside, 3.0)
     assert (slow.level, "docs/cluster.md" in slow.text) == ("warning", True)
+
+
+def test_duration_tells_how_much_longer_it_is_beside_other_work() -> None:
+    fit = Timed(plan.Part("RMSE", alone=0.0, together=6000.0, jobs=2), 0.01, 0.01, 0.01)
+    situation = Situation(None, Path(), 2)
+    told = {slower: estimate_of(situation, [fit], [], 0.0, slower).text for slower in (1.1, 4.0)}
+    assert told[1.1].startswith("about 60 s for the run on 2 cores. 6,000")
+    assert told[4.0].startswith("about 60 s for the run on 2 cores, 4 min beside the work of now. ")
+
+
+def test_processor_time_counts_own_and_started_work_only() -> None:
+    begin = processor_s()
+    time.sleep(0.2)
+    assert processor_s() - begin < 0.1
+    subprocess.run([sys.executable, "-c", "sum(range(3_000_000))"], check=True)
+    assert processor_s() - begin > 0.02
+
+
+def test_searches_are_timed_with_their_coarser_runs(monkeypatch: pytest.MonkeyPatch) -> None:
+    part = plan.Part("RMSE", alone=1.0, together=1.0, jobs=1, exact=1.0)
+    times = {"own": (8.0, 4.0), "coarser": (2.0, 1.0)}
+    monkeypatch.setattr(timing, "seconds", times.__getitem__)
+    monkeypatch.setattr(timing, "for_search", lambda problem: "coarser")
+    assert timing.timed_part(part, "own") == Timed(part, 2.0, 1.0, exact=4.0)
+    monkeypatch.setattr(timing, "for_search", lambda problem: problem)
+    assert timing.timed_part(part, "own") == Timed(part, 8.0, 4.0, exact=4.0)
+
+
+def test_searches_that_need_slopes_are_never_coarser(smoke: Study) -> None:
+    first, *costs = plan.parts_of(smoke, 2)
+    assert first.exact == 0.0
+    needing_slopes = optimiser_calls(smoke.imp, "least_squares")
+    assert [c.exact for c in costs] == [needing_slopes] * 3
 
 
 def test_external_programs_are_left_to_the_trial() -> None:

@@ -29,12 +29,20 @@ class Part:
         Model calls one by one, and in batches.
     jobs
         Number of jobs.
+    exact
+        Model calls in batches that are never coarser than the study asks for.
     """
 
     cost: str
     alone: float
     together: float
     jobs: int
+    exact: float = 0.0
+
+    @property
+    def calls(self) -> float:
+        """All model calls."""
+        return self.alone + self.together + self.exact
 
 
 def parts_of(study: Study, cores: int | None = None) -> Iterator[Part]:
@@ -47,13 +55,15 @@ def parts_of(study: Study, cores: int | None = None) -> Iterator[Part]:
     single = sum(len(share) for share in jobs if len(share) == 1)
     grouped = imp.repetitions - single
     sceua = sceua_calls(imp)
-    beside = sum(optimiser_calls(imp, optimiser) for optimiser in OPTIMISERS)
+    beside = {name: optimiser_calls(imp, name) for name in OPTIMISERS}
+    exact = sum(calls for name, calls in beside.items() if not OPTIMISERS[name].coarse)
     for cost in imp.costs:
         yield Part(
             cost,
             alone=single * sceua,
-            together=grouped * sceua + beside,
+            together=grouped * sceua + sum(beside.values()) - exact,
             jobs=len(jobs) + len(OPTIMISERS),
+            exact=exact,
         )
 
 

@@ -1,5 +1,6 @@
 """How long a whole run takes: steps that all others wait for, and steps side by side."""
 
+import os
 import subprocess
 import sys
 import time
@@ -65,11 +66,17 @@ def duration_of(works: Iterable[Work], cores: int, start: float) -> float:
     return alone + shared / max(min(cores, jobs), 1)
 
 
+def processor_s() -> float:
+    """Return the processor's time of this process, and of those that it has started [s]."""
+    others = os.times()
+    return time.process_time() + others.children_user + others.children_system
+
+
 def start_of_a_step() -> float:
-    """Return the time in which a step begins [s]: Python, its imports, Snakemake."""
-    begin = time.perf_counter()
+    """Return the processor's time in which a step begins [s]: Python, its imports, Snakemake."""
+    begin = processor_s()
     subprocess.run([sys.executable, "-P", "-c", _IMPORTS], check=False, capture_output=True)
-    return KERNELS * (time.perf_counter() - begin) + SNAKEMAKE_S
+    return KERNELS * (processor_s() - begin) + SNAKEMAKE_S
 
 
 def beside_the_fits(
@@ -110,16 +117,16 @@ def _is_computed(study: Study, name: str, signals: Iterable[str]) -> bool:
 def analysis_s(
     study: Study, estimation: Estimation, measured: Measurements, values: Mapping[str, float]
 ) -> float:
-    """Return the time of the analysis of a likelihood [s], from the noise of one signal.
+    """Return the processor's time of the analysis of a likelihood [s], from one signal's noise.
 
     The signal has the median number of points. Where a signal jumps, its noise is found twice.
     """
     problem = pose(study, estimation, measured, values)
     points = _points(problem)
     middle = sorted(range(len(points)), key=lambda k: points[k])[len(points) // 2]
-    begin = time.perf_counter()
+    begin = processor_s()
     noise_of(problem, middle)
-    a_point = (time.perf_counter() - begin) / points[middle]
+    a_point = (processor_s() - begin) / points[middle]
     jumps = [problem.runs[name].experiment.jumps for name, _, _ in problem.picks]
     noise = sum(n * (2 if jump else 1) for n, jump in zip(points, jumps, strict=True))
     return a_point * (noise + (ANALYSIS - 1.0) * sum(points))
