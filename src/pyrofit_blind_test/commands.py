@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from pyrofit.errors import StudyError
+from pyrofit.errors import DataError, StudyError
 
 
 def add(commands: Any) -> None:
@@ -19,6 +19,64 @@ def add(commands: Any) -> None:
     blind.add_argument("--log", type=Path, help="file that keeps a copy of the output")
     blind.set_defaults(step=_blind_test)
     _add_foreign(commands)
+    _add_benchmark(commands)
+
+
+def _add_benchmark(commands: Any) -> None:
+    """Add the commands of the benchmark of hidden effects."""
+    words = "write, answer and score the benchmark of hidden effects"
+    tasks = commands.add_parser("benchmark", help=words).add_subparsers(required=True)
+    write = tasks.add_parser("write", help="write data sets with hidden effects for everybody")
+    write.add_argument("folder", type=Path, help="folder of the benchmark")
+    write.add_argument(
+        "--setting",
+        type=Path,
+        nargs="+",
+        default=[Path("config/blind_test.yaml")],
+        help="settings of the blind test",
+    )
+    write.add_argument("--plan", required=True, help="plan of each setting")
+    write.add_argument(
+        "--so-far", action="store_true", help="only sets that the blind test has diagnosed"
+    )
+    write.set_defaults(step=_benchmark_write)
+    answer = tasks.add_parser("answer", help="answer the data sets by simple baselines")
+    answer.add_argument("folder", type=Path, help="folder of the benchmark")
+    answer.add_argument(
+        "--by",
+        nargs="+",
+        choices=("none", "sparse", "aic", "bic"),
+        default=["none", "sparse", "aic", "bic"],
+        help="baselines",
+    )
+    answer.add_argument("--first", type=int, help="number of sets, the first ones by name")
+    answer.set_defaults(step=_benchmark_answer)
+    score = tasks.add_parser("score", help="compare answers with the truth")
+    score.add_argument("folder", type=Path, help="folder of the benchmark")
+    score.add_argument("answers", type=Path, nargs="*", help="answers; by default all there")
+    score.add_argument("--common", action="store_true", help="only sets that all have answered")
+    score.set_defaults(step=_benchmark_score)
+
+
+def _benchmark_write(given: argparse.Namespace) -> None:
+    from pyrofit_blind_test.benchmark.write import write
+
+    write(given.folder, given.setting, given.plan, given.so_far, print)
+
+
+def _benchmark_answer(given: argparse.Namespace) -> None:
+    from pyrofit_blind_test.benchmark.baselines import answer_all
+
+    answer_all(given.folder, given.by, given.first, print)
+
+
+def _benchmark_score(given: argparse.Namespace) -> None:
+    from pyrofit_blind_test.benchmark.score import AnswerError, table
+
+    try:
+        print(table(given.folder, given.answers, given.common), end="")
+    except AnswerError as error:
+        raise DataError(str(error)) from None
 
 
 def _add_foreign(commands: Any) -> None:

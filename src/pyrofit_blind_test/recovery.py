@@ -81,7 +81,7 @@ def strength_rows(found: Found) -> Iterator[dict[str, object]]:
             continue
         (parameter,) = known_effects()[effect].strength
         truth = float(case["hidden"][effect][parameter])
-        given = _fitted(found).get(f"{effect}_{parameter}")
+        given = fitted_strengths(found).get(f"{effect}_{parameter}")
         if given is None:
             continue
         is_wide = given["low_wide"] is not None
@@ -101,7 +101,7 @@ def strength_rows(found: Found) -> Iterator[dict[str, object]]:
         }
 
 
-def _fitted(found: Found) -> Mapping[str, Any]:
+def fitted_strengths(found: Found) -> Mapping[str, Any]:
     """Return the parameters of the effects of the model that a verdict claims."""
     named = set(found["verdict"]["effects"])
     same = [c for c in found["candidates"] if set(c["effects"]) == named]

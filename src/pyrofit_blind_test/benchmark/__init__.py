@@ -1,0 +1,1 @@
+"""The benchmark of hidden effects: data sets for everybody, a scorer, and simple baselines."""
