@@ -4,13 +4,15 @@
 
 draws TGA at 5, 10 and 20 K/min with white noise of the points and the lasting errors of an
 apparatus. One reaction of first order is fitted to the outer two rates; `pyrofit init` holds out
-the middle one. A row is appended for each fit. Four truths take turns:
+the middle one. A row is appended for each fit. Five truths take turns:
 
 right
     One reaction of first order.
 lasting
     The same, and one record is off by three standard deviations of its whole noise for a third of
     it.
+smooth
+    The same, with an error of sin^2 over that third, four standard deviations at its height.
 order
     One reaction of order 1.5.
 two
@@ -33,7 +35,8 @@ from pyrofit.estimate.apparatus import LASTING
 from pyrofit.solver.arrays import FloatArray
 
 RATES = (5.0, 10.0, 20.0)
-KINDS = ("right", "lasting", "order", "two")
+KINDS = ("right", "lasting", "smooth", "order", "two")
+OFF = ("lasting", "smooth")
 HELD_OUT = 1
 POINTS = 120
 DRIFT = 0.003
@@ -80,11 +83,13 @@ def records(
         lasting = np.exp(-np.abs(np.subtract.outer(index, index)) / scale)
         drift = DRIFT * np.linalg.cholesky(lasting) @ rng.standard_normal(POINTS)
         value = clean + drift + sd * rng.standard_normal(POINTS)
-        if kind == "lasting" and k == off:
+        if kind in OFF and k == off:
             slope = np.gradient(clean, T)
             total = np.sqrt(sd**2 + DRIFT**2 + (SHIFT_K * slope) ** 2)
             first = rng.integers(POINTS // 3, POINTS // 2)
-            value[first : first + POINTS // 3] += 3.0 * total[first : first + POINTS // 3]
+            third = slice(first, first + POINTS // 3)
+            hump = 4.0 * np.sin(np.linspace(0.0, np.pi, POINTS // 3)) ** 2
+            value[third] += total[third] * (3.0 if kind == "lasting" else hump)
         time = (T - T[0]) * 60.0 / rate
         columns = {"time_s": time, "temperature_K": T, "mass_fraction": value}
         found[f"tga_{rate:g}K"] = pd.DataFrame(columns)
@@ -106,7 +111,7 @@ def row(twin: int) -> dict[str, object]:
     return {
         "twin": twin,
         "kind": kind,
-        "seen": kind != "lasting" or off != HELD_OUT,
+        "seen": kind not in OFF or off != HELD_OUT,
         "noise": sd,
         "E": E / 1e3,
         "low": low,

@@ -24,6 +24,18 @@ def noise(points: int = POINTS) -> NoiseModel:
     return NoiseModel(np.ones(points), Correlation(), modes=drift)
 
 
+def of_repeats() -> NoiseModel:
+    """Return the noise of smooth records whose repeats differ in level and start."""
+    knots, at = np.linspace(0.0, 1.0, 41), np.linspace(0.0, 1.0, POINTS)
+    level = 1.0 - np.exp(-knots / 0.3)
+    seen = 3.0 * np.column_stack([level, knots * np.exp(1.0 - knots / 0.3) / 0.3])
+    size = np.sqrt(np.sum(seen**2, axis=1))
+    factor = np.linalg.cholesky(np.exp(-np.abs(np.subtract.outer(knots, knots)) / 0.05))
+    both = np.column_stack([np.sqrt(0.9) * seen, np.sqrt(0.1) * size[:, None] * factor])
+    modes = np.column_stack([np.interp(at, knots, column) for column in both.T])
+    return NoiseModel(np.full(POINTS, 0.03), Correlation(), modes=modes)
+
+
 def likelihood(*noises: NoiseModel) -> Any:
     at = np.cumsum([0, *(one.sd.size for one in noises)])
     ranges = list(pairwise(at.tolist()))
@@ -74,6 +86,22 @@ def test_lasting_misfit_is_found_where_windows_of_whitened_residuals_hardly_show
         old += bool(highest(w[:, None])[0] > of_whitened[-DRAWS // 100])
     assert new >= 38
     assert old < new
+
+
+def test_smooth_misfit_is_found_below_points_that_hardly_scatter() -> None:
+    # Least squares of a step only see that the series does not jump: they find 3 of 20.
+    own, at = of_repeats(), np.linspace(0.0, 1.0, POINTS)
+    assert own.modes is not None
+    Q = spanned(own.whiten(at))
+    misfit = 15.0 * np.interp(at, knots := np.linspace(0.0, 1.0, 41), np.sin(np.pi * knots) ** 2)
+    found = 0
+    for seed in range(20):
+        rng = np.random.default_rng(seed)
+        lasting = own.modes @ rng.standard_normal(own.modes.shape[1])
+        w = own.whiten(misfit + lasting + own.sd * rng.standard_normal(POINTS))
+        shown, drawn = largest(likelihood(own), [w - Q @ (Q.T @ w)], Q)
+        found += p_of(float(shown[0]), drawn[:, 0]) < 0.01
+    assert found >= 19
 
 
 def test_each_signal_has_its_own_statistic_and_long_ones_have_bins() -> None:

@@ -52,6 +52,25 @@ class Correlation:
             return noise
         return bands.solve_lower(_factor(self.lags, len(noise)), noise)
 
+    def product(self, x: FloatArray) -> FloatArray:
+        """Return R x; x is (n, k).
+
+        >>> Correlation(ar=0.5).product(np.eye(3)[:, :1])[:, 0].tolist()
+        [1.0, 0.5, 0.25]
+        """
+        found = x.copy()
+        if self.ar:
+            # Sums from both ends, a^|i-j| each; both have the point itself.
+            backward = x.copy()
+            for i in range(1, len(x)):
+                found[i] += self.ar * found[i - 1]
+                backward[-i - 1] += self.ar * backward[-i]
+            return np.asarray(found + backward - x)
+        for lag, r in enumerate(self.lags, start=1):
+            found[lag:] += r * x[:-lag]
+            found[:-lag] += r * x[lag:]
+        return found
+
     def log_det(self, points: int) -> float:
         """Return log det R."""
         if self.ar:

@@ -1,16 +1,22 @@
-"""Windows in which a signal is missed by a constant number of standard deviations of its noise.
+"""Windows in which a signal is missed, seen in two ways.
 
-For each window of a signal, the misfit d is s(t), the standard deviation of its noise with lasting
-errors, inside the window and zero outside. Its size has the least squares estimate of the whitened
-residuals w, and this over its standard deviation is
+**Steps.** For each window of a signal, the misfit d is s(t), the standard deviation of its noise
+with lasting errors, inside the window and zero outside. Its size has the least squares estimate of
+the whitened residuals w, and this over its standard deviation is
 
     z = v^T w / |v|,    v = (I - Q Q^T) L^-1 d.
 
-Q spans what the parameters absorb, L^-1 whitens. The statistic of a signal is the largest
-|z| - sqrt(2 log(n/l)) over its windows of l of n points: short windows, of which there are many,
-must stand out more (Duembgen and Spokoiny 2001, doi 10.1214/aos/996986504). Errors of the apparatus
-that last, as a drift, are in L. Whitening then leaves little of a lasting misfit but its ends, so
-that sums of whitened residuals hardly show it.
+Q spans what the parameters absorb, L^-1 whitens. Errors of the apparatus that last, as a drift, are
+in L. Least squares look at the ends of a window then, where noise of that kind cannot jump.
+
+**Means.** A misfit without sharp ends leaves no trace there. So the mean of r/s over each window,
+of the residuals r = L w, counts as well. With C = L L^T, the sum over a window is t^T r, and
+
+    z = v^T w / |v|,    v = (I - Q Q^T) L^-1 C t,    t = 1/s inside the window.
+
+The statistic of a signal is the largest |z| - sqrt(2 log(n/l)) over both kinds and all windows of l
+of n points. Short windows, of which there are many, must stand out more (Duembgen and Spokoiny
+2001, doi 10.1214/aos/996986504).
 """
 
 import numpy as np
@@ -22,7 +28,8 @@ from pyrofit.solver.arrays import FloatArray
 
 DRAWS = 1000
 """Draws of noise that give the distribution."""
-MOST_BINS = 128
+STEP_BINS = 128
+MEAN_BINS = 32
 """Bins of a signal at whose ends windows begin and end; each point of a short signal is one."""
 ABSORBED = 1e-6
 """Share of the variance of z below which the parameters absorb all of a window."""
@@ -50,35 +57,58 @@ def largest(
     drawn = [signal.drawn(rng) for signal in signals]
     absorbed = np.sum([inside for _, inside in drawn], axis=0)
     of_noise = [
-        signal.largest(sums - linear.product(signal.slopes, absorbed))
-        for signal, (sums, _) in zip(signals, drawn, strict=True)
+        signal.largest(sums, absorbed) for signal, (sums, _) in zip(signals, drawn, strict=True)
     ]
-    shown = [
-        signal.largest(linear.product(signal.rows.T, w)[:, None])[0]
-        for signal, w in zip(signals, residuals, strict=True)
-    ]
+    shown = [signal.shown(w) for signal, w in zip(signals, residuals, strict=True)]
     return np.array(shown), np.stack(of_noise, axis=1)
 
 
 class _Signal:
-    """Whitened misfits of the bins of a signal, and the covariance of their sums."""
+    """Both kinds of windows of a signal."""
 
     def __init__(self, noise: NoiseModel, spanned: FloatArray) -> None:
-        points = noise.sd.size
-        count = min(points, MOST_BINS)
-        bins = np.arange(points) * count // points
-        steps = np.where(bins[:, None] == np.arange(count), noise.total_sd[:, None], 0.0)
-        self.rows, self.spanned = noise.whiten(steps), spanned
-        self.slopes = linear.product(self.rows.T, spanned)
-        whole = linear.gram(self.rows)
-        self._variance = _of_windows(whole - linear.product(self.slopes, self.slopes.T))
-        self._whole = _of_windows(whole)
+        sd = noise.total_sd[:, None]
+        steps = noise.whiten(np.where(_bins(sd.size, STEP_BINS), sd, 0.0))
+        means = np.where(_bins(sd.size, MEAN_BINS), 1.0 / sd, 0.0)
+        means = noise.whiten(noise.covariance_with(means))
+        self.kinds = (_Windows(steps, spanned), _Windows(means, spanned))
+        self.spanned = spanned
 
     def drawn(self, rng: np.random.Generator) -> tuple[FloatArray, FloatArray]:
         """Return sums over the bins, and the coordinates by Q, of draws of white noise."""
-        _, R = linear.qr(np.column_stack([self.rows, self.spanned]))
+        rows = [kind.rows for kind in self.kinds]
+        _, R = linear.qr(np.column_stack([*rows, self.spanned]))
         found = linear.product(R.T, rng.standard_normal((len(R), DRAWS)))
-        return found[: self.rows.shape[1]], found[self.rows.shape[1] :]
+        bins = found.shape[0] - self.spanned.shape[1]
+        return found[:bins], found[bins:]
+
+    def largest(self, sums: FloatArray, absorbed: FloatArray) -> FloatArray:
+        """Return the statistic of draws less the part that the parameters absorb."""
+        own = np.split(sums, [self.kinds[0].rows.shape[1]])
+        pairs = zip(self.kinds, own, strict=True)
+        found = [kind.largest(s - linear.product(kind.slopes, absorbed)) for kind, s in pairs]
+        return np.maximum(*found)
+
+    def shown(self, w: FloatArray) -> float:
+        """Return the statistic of residuals."""
+        return max(float(k.largest(linear.product(k.rows.T, w)[:, None])[0]) for k in self.kinds)
+
+
+def _bins(points: int, most: int) -> FloatArray:
+    """Return which bin each point is in, shape (points, bins)."""
+    count = min(points, most)
+    return np.asarray((np.arange(points) * count // points)[:, None] == np.arange(count))
+
+
+class _Windows:
+    """Windows of one kind: rows that make sums over bins, and the covariance of these."""
+
+    def __init__(self, rows: FloatArray, spanned: FloatArray) -> None:
+        self.rows = rows
+        self.slopes = linear.product(rows.T, spanned)
+        whole = linear.gram(rows)
+        self._variance = _of_windows(whole - linear.product(self.slopes, self.slopes.T))
+        self._whole = _of_windows(whole)
 
     def largest(self, sums: FloatArray) -> FloatArray:
         """Return the largest statistic of sums over the bins, (bins, draws), shape (draws,)."""

@@ -151,6 +151,13 @@ class NoiseModel:
         inside = linear.product(F, linear.product(B.T, white))
         return np.asarray(white - linear.product(B, inside))
 
+    def covariance_with(self, x: FloatArray) -> FloatArray:
+        """Return C x of the covariance C of the noise, x of shape (n, k)."""
+        found = self.sd[:, None] * self.correlation.product(self.sd[:, None] * x)
+        if self.modes is None:
+            return found
+        return np.asarray(found + linear.product(self.modes, linear.product(self.modes.T, x)))
+
     def _white_alone(self, residual: FloatArray) -> FloatArray:
         sd = self.sd if residual.ndim == 1 else self.sd[:, None]
         return self.correlation.whiten(residual / sd)
