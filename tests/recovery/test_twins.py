@@ -7,7 +7,7 @@ those of `config/twin.yaml`. The analysis knows the kinetics, and of the noise w
 its correlation is estimated.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +18,10 @@ import yaml
 from pyrofit.config import Study, TermSpec, as_study
 from pyrofit.estimate.identify import Identification, identify
 from pyrofit.estimate.likelihood import Likelihood, likelihood_of
+from pyrofit.estimate.posterior import UNIFORM
 from pyrofit.estimate.problem import make_problem
+from pyrofit.estimate.uncertain_apparatus import moves, variances
+from pyrofit.experiments.slab.uncertain import PLACES, with_value
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages.measurements import computed
 
@@ -154,3 +157,29 @@ def test_noise_is_estimated_as_it_was_drawn(twins: list[Twin]) -> None:
     )
     assert rate.mean(axis=0) == pytest.approx((-0.25, -0.20), abs=0.05)
     assert temperature.mean(axis=0) == pytest.approx((0.90, 0.81), abs=0.02)
+
+
+def test_wrong_description_moves_estimates_as_far_as_told(twins: list[Twin]) -> None:
+    likelihood, x = twins[0].likelihood, twins[0].found.optimum.x
+    problem, place = likelihood.problem, PLACES["flux"]
+    (name,) = problem.runs
+    run, value = problem.runs[name], 1.0 + 0.1 * place.sd
+    wrong = replace(run, experiment=with_value(run.experiment, place, value))
+    described = replace(likelihood, problem=replace(problem, runs={name: wrong}))
+    moved = described.descend(x).x - x
+
+    J = likelihood.with_known(likelihood.slopes(x))
+    C = np.linalg.inv(J.T @ J + UNIFORM * np.eye(x.size))
+    u = likelihood.whiten(moves(likelihood, x))
+    points = sum(likelihood.points)
+    told = 0.1 * (C @ J[:points].T @ u[:, 0])  # the flux is the first error
+    assert moved == pytest.approx(-told, abs=0.1 * float(np.max(np.abs(told))))
+    assert variances(C, J[:points], 0.1 * u[:, :1]) == pytest.approx(told**2)
+
+
+def test_interval_of_a_right_model_leaves_the_apparatus_aside(twins: list[Twin]) -> None:
+    # A flux that is wrong by 3 % moves the emissivity by about as much.
+    i = ESTIMATED.index("eps_a")
+    for estimate in (twin.found.estimates[i] for twin in twins):
+        assert estimate.apparatus > 0.02
+        assert estimate.interval.width < 2.0 * 1.96 * estimate.apparatus

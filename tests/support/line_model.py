@@ -61,6 +61,9 @@ class Posed:
         )
         return {"slab": SimpleNamespace(experiment=point)}
 
+    def values(self, x: FloatArray) -> dict[str, float]:
+        return dict(zip(self.names, x.tolist(), strict=True))
+
     def temperature_K(self, channel: int) -> None:
         return None
 

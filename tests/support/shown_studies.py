@@ -232,7 +232,7 @@ def _starts(results: Results, cost: str, optimiser: str, starts: list[dict[str, 
 
 def _identification(study: Study, results: Results) -> None:
     """k is determined, cp is not: its interval ends at the upper limit."""
-    common = {"low_open": False, "bound": "", "noise_width": 0.05}
+    common = {"low_open": False, "bound": "", "noise_width": 0.05, "apparatus_sd": 0.05}
     k = {"parameter": "k", "estimate": 0.3, "sd": 0.01, "low": 0.28, "high": 0.32, "width": 0.1}
     k |= {"noise_low": 0.29, "noise_high": 0.31, "high_open": False, "method": "linear"}
     cp = {"parameter": "cp", "estimate": 3500.0, "sd": 800.0, "low": 1400.0, "high": 3500.0}
@@ -259,7 +259,7 @@ def _identification(study: Study, results: Results) -> None:
     ]
     write_csv(results.identification("sensitivities.csv"), pd.concat(curves))
     if study.kinetics is not None:
-        kinetics = {**common, **k, "parameter": "T_p", "verdict": "determined"}
+        kinetics = {**common, **k, "parameter": "T_p", "apparatus_sd": 0.0, "verdict": "determined"}
         write_csv(results.identification("estimate.csv", "kinetics"), pd.DataFrame([kinetics]))
         alone = pd.DataFrame({"parameter": ["T_p"], "T_p": [1.0]})
         write_csv(results.identification("correlation.csv", "kinetics"), alone)

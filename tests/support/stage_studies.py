@@ -88,7 +88,16 @@ def by_hand(study: Study, results: Results) -> None:
 
 def estimated_by_hand(results: Results, values: dict[str, float], stage: str = "imp") -> None:
     """Write estimates as the step identify does, without its analysis."""
-    numbers = ("sd", "low", "high", "width", "noise_low", "noise_high", "noise_width")
+    numbers = (
+        "sd",
+        "apparatus_sd",
+        "low",
+        "high",
+        "width",
+        "noise_low",
+        "noise_high",
+        "noise_width",
+    )
     words = ("bound", "low_open", "high_open", "method", "verdict")
     row = {**dict.fromkeys(numbers, 0.1), **dict.fromkeys(words, "")}
     rows = [{"parameter": name, "estimate": value, **row} for name, value in values.items()]

@@ -7,6 +7,7 @@ from typing import Any, Literal
 import pandas as pd
 
 from pyrofit.config import Study
+from pyrofit.constants import QUANTILE
 from pyrofit.results.goodness import APPARENT
 from pyrofit.results.identification import Identified
 
@@ -40,6 +41,8 @@ class Estimated:
         The parameter, its estimate, and the 95 % interval.
     width
         Width of the interval as a fraction of the search range.
+    apparatus
+        How far usual errors of the apparatus move the estimate, with 95 %.
     cut_off
         Which ends a limit cuts off: 'lower', 'upper', 'both', or none.
     noise_low, noise_high
@@ -61,6 +64,7 @@ class Estimated:
     low: float
     high: float
     width: float
+    apparatus: float
     cut_off: str | None
     noise_low: float | None
     noise_high: float | None
@@ -69,6 +73,15 @@ class Estimated:
     verdict: str
     partner: str
     correlation: float | None
+
+    @property
+    def rests_on_description(self) -> bool:
+        """Whether usual errors of the apparatus move it farther than its interval, which has none.
+
+        The interval of a model that misses the tests has them.
+        """
+        apart = self.method != "misfit"
+        return apart and self.apparatus > max(self.high - self.value, self.value - self.low)
 
     @property
     def grade(self) -> Grade:
@@ -105,6 +118,7 @@ def _estimated(
         low=float(row["low"]) / factor,
         high=float(row["high"]) / factor,
         width=float(row["width"]),
+        apparatus=QUANTILE * float(row["apparatus_sd"]) / factor,
         cut_off=_CUT_OFF[bool(row["low_open"]), bool(row["high_open"])],
         noise_low=_another(row, "low", factor),
         noise_high=_another(row, "high", factor),

@@ -28,6 +28,7 @@ def estimates_table(study: Study, likelihood: Likelihood, found: Identification)
                 "parameter": e.name,
                 "value": lower + e.x * span,
                 "sd": e.sd * span,
+                "apparatus_sd": e.apparatus * span,
                 "low": lower + e.interval.low * span,
                 "high": lower + e.interval.high * span,
                 "unit": study.parameters[e.name].unit,

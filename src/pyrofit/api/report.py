@@ -4,12 +4,14 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import partial
+from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from pyrofit.api.choices import Key
 from pyrofit.api.tables import html_page, text_table
+from pyrofit.constants import QUANTILE
 from pyrofit.show.text import number, several, signed
 from pyrofit.solver.arrays import FloatArray
 
@@ -101,14 +103,22 @@ def _parameters(fit: Report) -> pd.DataFrame:
                 "value": write(row["value"]),
                 "sd": write(row["sd"]) if known else "",
                 "95 % interval": f"{write(row['low'])} to {write(row['high'])}" if known else "",
+                "± by the apparatus": _of_apparatus(row),
                 "unit": row["unit"],
                 "limits": f"{number(row['lower'])} to {number(row['upper'])}",
                 "remark": row["verdict"] or at,
             }
         )
     frame = pd.DataFrame(rows)
-    empty = [c for c in ("sd", "95 % interval", "remark") if not any(frame[c])]
+    may_be_empty = ("sd", "95 % interval", "± by the apparatus", "remark")
+    empty = [c for c in may_be_empty if not any(frame[c])]
     return frame.drop(columns=empty)
+
+
+def _of_apparatus(row: "pd.Series[Any]") -> str:
+    """Return how far usual errors of the apparatus move an estimate, with 95 %."""
+    sd = float(row.get("apparatus_sd", 0.0))
+    return number(float(f"{QUANTILE * sd:.2g}")) if sd > 0.0 else ""
 
 
 def _derived(table: pd.DataFrame) -> pd.DataFrame:

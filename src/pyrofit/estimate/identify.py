@@ -17,7 +17,8 @@ from pyrofit.estimate.goodness import goodness_of_fit
 from pyrofit.estimate.likelihood import Likelihood, fit
 from pyrofit.estimate.posterior import Posterior, interval, limit_of
 from pyrofit.estimate.profile import Interval, Profile, profile_of
-from pyrofit.estimate.wrong_model import least_squares, sds_of_misfit
+from pyrofit.estimate.uncertain_apparatus import moves, variances
+from pyrofit.estimate.wrong_model import least_squares, sds_of_apparatus, sds_of_misfit
 from pyrofit.numerics import linear
 from pyrofit.results.goodness import APPARENT, Goodness
 from pyrofit.solver.arrays import FloatArray
@@ -47,6 +48,10 @@ class Estimate:
         Estimate.
     sd
         Standard deviation of the parabola, widened by the dispersion.
+    apparatus
+        Standard deviation by usual errors of the apparatus, see
+        `pyrofit.estimate.uncertain_apparatus`. It is part of ``sd`` where the model misses the
+        tests.
     noise
         Interval if the noise were all that keeps model and data apart.
     interval
@@ -62,6 +67,7 @@ class Estimate:
     name: str
     x: float
     sd: float
+    apparatus: float
     noise: Interval
     interval: Interval
     method: str
@@ -173,19 +179,24 @@ def _of_wrong_model(likelihood: Likelihood, x: FloatArray, tested: Goodness) -> 
     plain, x = least_squares(likelihood, x)
     curves, slopes = _finished(likelihood, x), likelihood.slopes(x)
     posterior = likelihood.posterior(x, slopes)
-    sds = sds_of_misfit(likelihood, plain, x, slopes, curves).tolist()
+    apparatus = sds_of_apparatus(plain, x, slopes)
+    misfit = sds_of_misfit(likelihood, plain, x, slopes, curves)
+    sds = np.sqrt(misfit**2 + apparatus**2).tolist()
     of_noise = np.sqrt(np.diag(posterior.covariance(None, 1.0))).tolist()
     estimates = tuple(
         Estimate(
             name,
             at,
             sd,
+            sd_of_apparatus,
             Interval(*interval(at, s)),
             Interval(*interval(at, sd)),
             MISFIT,
             limit_of(at),
         )
-        for name, at, sd, s in zip(likelihood.problem.names, x.tolist(), sds, of_noise, strict=True)
+        for name, at, sd, sd_of_apparatus, s in zip(
+            likelihood.problem.names, x.tolist(), sds, apparatus.tolist(), of_noise, strict=True
+        )
     )
     residuals = likelihood.residuals(x)
     optimum = Fit(linear.dot(residuals, residuals), x, residuals, posterior.jacobian)
@@ -224,6 +235,8 @@ def _around(
     # A parameter that rests at a limit may leave it when another moves: no parabola tells that.
     inside = not any(limit_of(v) for v in optimum.x)
     lowest = optimum
+    apparatus = likelihood.whiten(moves(likelihood, optimum.x))
+    J = posterior.jacobian[: posterior.residuals.size]
     estimates = []
     profiles = {}
     for i, (name, x) in enumerate(zip(likelihood.problem.names, optimum.x.tolist(), strict=True)):
@@ -248,7 +261,9 @@ def _around(
             lowest = min(lowest, end, key=lambda o: o.chi2)
             noise, wide = profile.interval(wider), profile.interval(rise)
             method = PROFILE
-        estimates.append(Estimate(name, x, sd, noise, wide, method, limit_of(x)))
+        of_apparatus = variances(covariance / dispersion, J[:, free], apparatus)
+        more = float(np.sqrt(of_apparatus[at]))
+        estimates.append(Estimate(name, x, sd, more, noise, wide, method, limit_of(x)))
     return tuple(estimates), profiles, lowest
 
 

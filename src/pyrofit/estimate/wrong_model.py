@@ -24,7 +24,8 @@ seen. The n points of all records of a quantity then count as one observation,
 
     B = sum over quantities n J^T J.
 
-The smaller variance counts.
+The smaller variance counts. Usual errors of the apparatus add theirs, see
+`pyrofit.estimate.uncertain_apparatus`.
 """
 
 from collections import Counter
@@ -38,6 +39,7 @@ from pyrofit.estimate.discrepancy import estimated, times
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.noise import NoiseModel
 from pyrofit.estimate.posterior import UNIFORM
+from pyrofit.estimate.uncertain_apparatus import moves, variances
 from pyrofit.numerics import linear
 from pyrofit.quantities.base import Quantity
 from pyrofit.solver.arrays import FloatArray
@@ -112,6 +114,14 @@ def sds_of_misfit(
     quantities = [_quantity(likelihood, k) for k in range(len(J))]
     if all(quantity.against_temperature for quantity in quantities):
         found = np.minimum(found, _variances(H, _as_one_observation(H, J, quantities)))
+    return np.asarray(np.sqrt(found))
+
+
+def sds_of_apparatus(plain: Likelihood, x: FloatArray, slopes: FloatArray) -> FloatArray:
+    """Return the standard deviations by usual errors of the apparatus, shape (parameters,)."""
+    rows = plain.with_known(slopes)
+    H = linear.gram(rows) + UNIFORM * np.eye(x.size)
+    found = variances(linear.inverse(H), rows[: sum(plain.points)], plain.whiten(moves(plain, x)))
     return np.asarray(np.sqrt(found))
 
 

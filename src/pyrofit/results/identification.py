@@ -12,7 +12,17 @@ from pyrofit.results.goodness import Goodness
 from pyrofit.results.record import Record, read_record, write_record
 
 _SETS: dict[str, type] = {"set": object, "chi2": float}
-_NUMBERS = ("estimate", "sd", "low", "high", "width", "noise_low", "noise_high", "noise_width")
+_NUMBERS = (
+    "estimate",
+    "sd",
+    "apparatus_sd",
+    "low",
+    "high",
+    "width",
+    "noise_low",
+    "noise_high",
+    "noise_width",
+)
 
 
 class Channel(Record):

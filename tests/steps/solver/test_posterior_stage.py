@@ -70,7 +70,8 @@ def identified(study: Study, tmp_path_factory: pytest.TempPathFactory) -> Result
     likelihood = likelihood_of(problem, prior_of(study, problem))
     residuals = likelihood.residuals(likelihood.scaled(truth))[: sum(likelihood.points)]
     numbers = dict.fromkeys(
-        ("sd", "low", "high", "width", "noise_low", "noise_high", "noise_width"), 0.1
+        ("sd", "apparatus_sd", "low", "high", "width", "noise_low", "noise_high", "noise_width"),
+        0.1,
     )
     words = dict.fromkeys(("bound", "low_open", "high_open", "method", "verdict"), "")
     rows = [

@@ -138,7 +138,8 @@ def test_near_and_intervals_lie_about_the_estimates(
     measurements.prepare(study, there)
     values = {"rho": 1190.0, "k": 0.2, "cp": 2100.0, "eps": 0.9, "dh": 800e3}
     frame = pd.DataFrame({"parameter": values.keys(), "estimate": values.values()})
-    write_csv(there.identification("estimate.csv"), frame.assign(sd=0.01 * frame["estimate"]))
+    frame = frame.assign(sd=0.01 * frame["estimate"], apparatus_sd=1.0, method="linear")
+    write_csv(there.identification("estimate.csv"), frame)
     for within, reach in (("near", None), ("intervals", 0.03)):
         run(with_few(study, within=within), there, print, 1)
         for one in sensitivity.read(study, there).inputs:

@@ -31,12 +31,18 @@ PLACES = {
 
 def described(experiment: Experiment, place: Place) -> float | None:
     """Return the number that is described, if it is one and matters."""
+    value = stated(experiment, place)
+    return value if isinstance(value, float) else None
+
+
+def stated(experiment: Experiment, place: Place) -> float | str | None:
+    """Return the number, or the name of a parameter, that stands in a place and matters."""
     if not isinstance(experiment, SlabExperiment):
         return None
     if place.key == "loss_factor" and not has_open_back(experiment):
         return None
-    value = getattr(getattr(experiment, place.part), place.key)
-    return value if isinstance(value, float) else None
+    found: float | str | None = getattr(getattr(experiment, place.part), place.key)
+    return found
 
 
 def with_value(experiment: Experiment, place: Place, value: float | str) -> Experiment:

@@ -114,16 +114,22 @@ def _within_intervals(study: Study, results: Results, problem: Problem) -> list[
 
 
 def _estimates(results: Results, problem: Problem) -> dict[str, tuple[float, float]]:
-    """Return estimate and standard deviation of the analysis of the likelihood, SI units."""
-    columns = {"parameter": object, "estimate": float, "sd": float}
+    """Return estimate and standard deviation of the analysis of the likelihood, SI units.
+
+    Errors of the apparatus, which vary here by themselves, are not part of it.
+    """
+    numbers = ("estimate", "sd", "apparatus_sd")
+    columns = {"parameter": object, "method": object, **dict.fromkeys(numbers, float)}
     frame = read_csv(
         results.identification("estimate.csv"),
         columns,
         {("parameter",): [(name,) for name in problem.names]},
     )
-    values = frame.set_index("parameter").loc[list(problem.names), ["estimate", "sd"]]
-    pairs = values.to_numpy(float).tolist()
-    return {name: (mean, sd) for name, (mean, sd) in zip(problem.names, pairs, strict=True)}
+    of_apparatus = frame["apparatus_sd"].where(frame["method"] == "misfit", 0.0)
+    sds = np.sqrt(np.maximum(frame["sd"] ** 2 - of_apparatus**2, 0.0))
+    rows = zip(frame["parameter"], frame["estimate"], sds, strict=True)
+    pairs = {str(name): (float(mean), float(sd)) for name, mean, sd in rows}
+    return {name: pairs[name] for name in problem.names}
 
 
 def _known(study: Study, name: str) -> Input:

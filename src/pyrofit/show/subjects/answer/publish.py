@@ -7,6 +7,7 @@ from pyrofit.analysis.estimates import Estimated
 from pyrofit.config import Study
 from pyrofit.config.check.oxidised import oxidised
 from pyrofit.results.kinetics import FITTED
+from pyrofit.show.apparatus import usual_errors
 from pyrofit.show.facts import Facts
 from pyrofit.show.names import STAGES, named
 from pyrofit.show.text import listed, several
@@ -21,6 +22,7 @@ def publishable(study: Study, facts: Facts) -> Iterator[str]:
     ours = one_each(study, facts.estimates)
     yield from _at_limits([e for e in ours if e.bound])
     yield _by_verdict(ours)
+    yield from _by_description(ours)
     yield from _far_from_known(facts)
     yield from _kinetics_of_imp(study)
     yield from _assumed(facts)
@@ -61,6 +63,17 @@ def _by_verdict(ours: list[Estimated]) -> str:
     if loose:
         text += f" Do not quote {listed(loose)} alone: other values fit as well."
     return text
+
+
+def _by_description(ours: list[Estimated]) -> Iterator[str]:
+    moved = [e for e in ours if e.grade == "determined" and e.rests_on_description]
+    if moved:
+        by = [f"{e.name} by ± {e.apparatus:.2g} {e.unit}".rstrip(" -") for e in moved]
+        yield (
+            f"The intervals take the tests as described. Usual errors of the apparatus move "
+            f"{listed(by)}, farther than the intervals (standard deviations: {usual_errors()}). "
+            "Publish both."
+        )
 
 
 def _far_from_known(facts: Facts) -> Iterator[str]:
