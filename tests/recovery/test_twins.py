@@ -123,7 +123,9 @@ def test_intervals_cover_the_truth_and_are_narrow(twins: list[Twin], name: str) 
     ]
     assert 0.85 <= np.mean(covered) <= 1.0
     assert max(interval.width for interval in intervals) <= 0.20
-    assert {twin.found.estimates[i].verdict for twin in twins} == {"determined"}
+    # With usual errors of the apparatus only the density is determined by one test.
+    sure = {"determined"} if name == "rho_a" else {"determined as described"}
+    assert {twin.found.estimates[i].verdict for twin in twins} == sure
 
 
 def test_intervals_of_all_parameters_together_cover_as_often_as_they_say(

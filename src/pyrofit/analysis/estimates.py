@@ -8,12 +8,20 @@ import pandas as pd
 
 from pyrofit.config import Study
 from pyrofit.constants import QUANTILE
-from pyrofit.results.goodness import APPARENT
+from pyrofit.results.goodness import APPARENT, AS_DESCRIBED
 from pyrofit.results.identification import Identified
 
-Grade = Literal["determined", "weakly determined", "apparent value", "at a limit", "undetermined"]
+Grade = Literal[
+    "determined",
+    "determined as described",
+    "weakly determined",
+    "apparent value",
+    "at a limit",
+    "undetermined",
+]
 GRADES: tuple[Grade, ...] = (
     "determined",
+    AS_DESCRIBED,
     "weakly determined",
     "apparent value",
     "at a limit",
@@ -92,6 +100,8 @@ class Estimated:
             return "at a limit"
         if self.verdict == APPARENT:
             return APPARENT
+        if self.verdict == AS_DESCRIBED:
+            return AS_DESCRIBED
         return "determined" if self.verdict == "determined" else "weakly determined"
 
 

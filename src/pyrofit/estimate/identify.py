@@ -20,7 +20,7 @@ from pyrofit.estimate.profile import Interval, Profile, profile_of
 from pyrofit.estimate.uncertain_apparatus import moves, variances
 from pyrofit.estimate.wrong_model import least_squares, sds_of_apparatus, sds_of_misfit
 from pyrofit.numerics import linear
-from pyrofit.results.goodness import APPARENT, Goodness
+from pyrofit.results.goodness import APPARENT, AS_DESCRIBED, Goodness
 from pyrofit.solver.arrays import FloatArray
 
 DETERMINED = 0.20
@@ -34,6 +34,7 @@ RESTARTS = 3
 """How often a lower chi-square found by a profile starts the analysis again."""
 LOWER = 0.01
 """A chi-square is lower if it is so by more."""
+SURE = "determined"
 LINEAR, PROFILE, MISFIT = "linear", "profile", "misfit"
 """How an interval was made, see `Estimate`."""
 
@@ -76,7 +77,9 @@ class Estimate:
     @property
     def verdict(self) -> str:
         """Whether the data determine it, in words."""
-        return verdict(self.interval.width, self.bound, self.method != MISFIT)
+        found = verdict(self.interval.width, self.bound, self.method != MISFIT)
+        with_apparatus = math.hypot(self.interval.width, 2.0 * QUANTILE * self.apparatus)
+        return AS_DESCRIBED if found == SURE and with_apparatus > DETERMINED else found
 
 
 def verdict(width: float, bound: str, fits: bool = True) -> str:
@@ -96,7 +99,7 @@ def verdict(width: float, bound: str, fits: bool = True) -> str:
         return f"at its {bound} limit"
     if not fits:
         return APPARENT
-    return "determined" if width <= DETERMINED else "weakly determined"
+    return SURE if width <= DETERMINED else "weakly determined"
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,6 +6,7 @@ from pyrofit.analysis.answer import estimated_twice, one_each
 from pyrofit.analysis.estimates import Estimated
 from pyrofit.config import Study
 from pyrofit.config.check.oxidised import oxidised
+from pyrofit.results.goodness import AS_DESCRIBED
 from pyrofit.results.kinetics import FITTED
 from pyrofit.show.apparatus import usual_errors
 from pyrofit.show.facts import Facts
@@ -55,7 +56,8 @@ def _by_verdict(ours: list[Estimated]) -> str:
         text = "No value can be published as a property of the material from this model."
     else:
         text = "The data determine no parameter."
-    groups.pop("at a limit", None)
+    for told in ("at a limit", AS_DESCRIBED):
+        groups.pop(told, None)
     parts = [f"{grade}: {listed([named(e) for e in of])}" for grade, of in groups.items()]
     if parts:
         text += f" {'; '.join(parts).capitalize()[:1]}{'; '.join(parts)[1:]}. {IN_BRACKETS}"
@@ -66,13 +68,18 @@ def _by_verdict(ours: list[Estimated]) -> str:
 
 
 def _by_description(ours: list[Estimated]) -> Iterator[str]:
-    moved = [e for e in ours if e.grade == "determined" and e.rests_on_description]
-    if moved:
-        by = [f"{e.name} by ± {e.apparatus:.2g} {e.unit}".rstrip(" -") for e in moved]
+    """Say which estimates rest on the description, and how far its usual errors move them."""
+    if rest := [e.name for e in ours if e.grade == AS_DESCRIBED]:
         yield (
-            f"The intervals take the tests as described. Usual errors of the apparatus move "
-            f"{listed(by)}, farther than the intervals (standard deviations: {usual_errors()}). "
-            "Publish both."
+            f"Determined only if flux, thickness, h and temperatures of the tests are exactly as "
+            f"described: {listed(rest)}."
+        )
+    sure = [e for e in ours if e.grade in ("determined", AS_DESCRIBED)]
+    if moved := [e for e in sure if e.rests_on_description]:
+        by = [f"{e.name} by ± {e.apparatus:.2g} {e.unit}".removesuffix(" -") for e in moved]
+        yield (
+            f"Usual errors of the apparatus move {listed(by)}, farther than the interval (standard "
+            f"deviations: {usual_errors()}). Publish both."
         )
 
 
