@@ -27,7 +27,7 @@ from pyrofit.config import (
 )
 from pyrofit.config.resolve import calibrated
 from pyrofit.config.uses import parameters_in
-from pyrofit.diagnose.base.descent import descend
+from pyrofit.diagnose.base.descent import descend_chi_square
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import Base, Free, Model, extended, model_of
 from pyrofit.diagnose.search.kinetics_first import kinetics_first
@@ -112,9 +112,9 @@ def with_starts(effects: Free, x: FloatArray) -> FloatArray:
 
 def best(model: Model, begins: Sequence[FloatArray]) -> FittedModel:
     """Return the lowest end of descents, twice descended."""
-    ends = [descend(model, x) for x in begins]
+    ends = [descend_chi_square(model, x) for x in begins]
     lowest = min(ends, key=lambda end: end.chi2)
-    return FittedModel(model, descend(model, lowest.x))
+    return FittedModel(model, descend_chi_square(model, lowest.x))
 
 
 def fitted(

@@ -16,7 +16,7 @@ from pathlib import Path
 
 from pyrofit.errors import DataError
 from pyrofit.new_study.divisor import divisor_of, is_told
-from pyrofit.new_study.draft import Measured, measured
+from pyrofit.new_study.draft import MeasuredFile, read_experiment
 
 KINDS = {
     "tga": "TGA|STA",
@@ -36,7 +36,7 @@ def kind_of(path: Path) -> str:
     return "" if other else next(found, "")
 
 
-def edits(run: Measured) -> Iterator[str]:
+def edits(run: MeasuredFile) -> Iterator[str]:
     """Yield what has to be given or looked at in the study of a file."""
     of = "flux" if run.of.stage == "imp" else "heating rate"
     if run.told not in TOLD:
@@ -57,7 +57,7 @@ def main() -> None:
         if not (kind := kind_of(path)):
             continue
         try:
-            run = measured(kind, path)
+            run = read_experiment(kind, path)
         except DataError as error:
             read[kind, "refused"] += 1
             print(error, file=sys.stderr)

@@ -15,11 +15,11 @@ import pandas as pd
 
 from pyrofit.scheme.choice import choose_scheme
 from pyrofit.scheme.fit import FittedScheme, fit_posed
-from pyrofit.scheme.posed import pose
-from pyrofit.scheme.prediction import predict
+from pyrofit.scheme.posed import pose_scheme
+from pyrofit.scheme.prediction import predict_records
 from pyrofit.scheme.schemes import Scheme, scheme_named
-from pyrofit.scheme.settings import Settings
-from pyrofit.scheme.twins import Twin, make_twin
+from pyrofit.scheme.settings import SchemeSettings
+from pyrofit.scheme.twins import SchemeTwin, make_scheme_twin
 
 TRUTHS = (
     "single",
@@ -51,17 +51,17 @@ def main() -> None:
     parser.add_argument("--first", type=int, default=0)
     given = parser.parse_args()
     # Schemes far above the least BIC are never chosen: their predictions are left out here.
-    settings = replace(Settings(), hopeless_bic=100.0)
+    settings = replace(SchemeSettings(), hopeless_bic=100.0)
     rows: list[dict[str, object]] = []
     for draw in range(given.first, given.first + given.draws):
         for k, name in enumerate(TRUTHS):
             scheme = scheme_named(name, settings.most_reactions)
-            rows.append(judged(make_twin(scheme, 1000 * draw + k, settings), scheme))
+            rows.append(judged(make_scheme_twin(scheme, 1000 * draw + k, settings), scheme))
             print(rows[-1], flush=True)
             pd.DataFrame(rows).to_csv(given.output, index=False)
 
 
-def judged(twin: Twin, scheme: Scheme) -> dict[str, object]:
+def judged(twin: SchemeTwin, scheme: Scheme) -> dict[str, object]:
     """Return the scheme chosen for a twin, and the errors of its predictions and the truth's."""
     choice = choose_scheme(twin.setting, lambda text: None)
     chosen = choice.chosen.fitted
@@ -80,17 +80,17 @@ def judged(twin: Twin, scheme: Scheme) -> dict[str, object]:
     }
 
 
-def _true(twin: Twin, scheme: Scheme) -> FittedScheme:
+def _true(twin: SchemeTwin, scheme: Scheme) -> FittedScheme:
     setting = twin.setting
-    posed = pose(setting.study, scheme, setting.records, setting.settings)
+    posed = pose_scheme(setting.study, scheme, setting.records, setting.settings)
     rng = np.random.default_rng(0)
     return fit_posed(setting, posed, setting.calibrated, [twin.truth], rng, random=0)
 
 
-def error(twin: Twin, fitted: FittedScheme) -> float:
+def error(twin: SchemeTwin, fitted: FittedScheme) -> float:
     """Return the root mean square of predicted minus true mass at the rates not fitted."""
     others = [r for r in twin.setting.records if not r.calibrated]
-    found = predict(twin.setting, fitted, others)
+    found = predict_records(twin.setting, fitted, others)
     squares = [np.mean((p.curve - twin.clean[p.record.experiment]) ** 2) for p in found]
     return float(np.sqrt(np.mean(squares)))
 

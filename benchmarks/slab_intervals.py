@@ -20,7 +20,7 @@ import pandas as pd
 import pyrofit as pf
 from pyrofit.constants import QUANTILE
 from pyrofit_blind_test.places import Places
-from pyrofit_blind_test.plan import Case, cases_of
+from pyrofit_blind_test.plan import TwinPlan, cases_of
 from pyrofit_blind_test.setting import Setting, read_setting
 from pyrofit_blind_test.twin import make_twin, read_twin, write_twin
 
@@ -43,14 +43,14 @@ COLUMNS = (
 )
 
 
-def cases(setting: Setting) -> list[Case]:
+def cases(setting: Setting) -> list[TwinPlan]:
     """Return the twins, in an order that mixes their effects."""
     plan = setting.plans["short"].model_copy(update=PLAN)
     own = setting.model_copy(update={"plans": {"intervals": plan}})
     return [case for case in cases_of(own, "intervals") if case.signals == SIGNALS]
 
 
-def rows(setting: Setting, case: Case, folder: Path) -> Iterator[dict[str, object]]:
+def rows(setting: Setting, case: TwinPlan, folder: Path) -> Iterator[dict[str, object]]:
     """Fit a twin; yield a row for each parameter."""
     places, twin = Places(folder), make_twin(setting, case)
     assert twin.truth.synthetic is not None

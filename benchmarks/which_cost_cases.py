@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.config import Study, as_study, read_mapping
-from pyrofit.data.noise import draw
+from pyrofit.data.noise import draw_noise
 from pyrofit.model.signal import Noise
 from pyrofit.results.files import Results
 from pyrofit.results.recorded import load
@@ -20,7 +20,7 @@ from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages.fit import fit_kinetics, fixed_for_imp
 from pyrofit.stages.identify import identify_kinetics
 from pyrofit.stages.measurements import computed, prepare
-from pyrofit_blind_test.plan import strength_of
+from pyrofit_blind_test.plan import strength_at
 from pyrofit_blind_test.setting import Setting, read_setting
 
 CONFIG = Path(__file__).parents[1] / "config"
@@ -136,7 +136,7 @@ def posed(case: Case, folder: Path) -> Posed:
         rng = np.random.default_rng(seed_for(SEED, NOISES[noise], case.number, signal))
         quantity = study.experiments["capa_25"].quantity(signal)
         values = frame[quantity.column].to_numpy(float)
-        error = draw(spec.correlation(values.size), rng)
+        error = draw_noise(spec.correlation(values.size), rng)
         if noise == "outliers":
             error += _spikes(values.size, rng)
         columns = {quantity.column: values + spec.sd * error}
@@ -183,7 +183,7 @@ def _truth(
     given["synthetic"] = {
         "truth": truth,
         "accuracy": {"elements": ELEMENTS, "tolerance": 1e-6},
-        "effects": {effect: strength_of(setting, effect)} if effect else {},
+        "effects": {effect: strength_at(setting, effect)} if effect else {},
     }
     given["kinetics"] = None
     given["experiments"] = {

@@ -27,7 +27,7 @@ from pyrofit.show.style import (
     save,
     style,
 )
-from pyrofit_blind_test.rates import interval
+from pyrofit_blind_test.rates import rate_interval
 
 GROUPS = {
     "white": "white noise",
@@ -133,7 +133,7 @@ def _counted(inside: pd.Series) -> str:
     hits, of = int(inside.sum()), len(inside)
     if not of:
         return "-"
-    low, high = interval(hits, of)
+    low, high = rate_interval(hits, of)
     return f"{hits}/{of}, {hits / of:.0%} ({low:.0%} to {high:.0%})"
 
 

@@ -278,9 +278,9 @@ def of_diagnosis(root: Path) -> dict[str, Figure]:
     """Return the figures of a diagnosis; none where there is no diagnosis."""
     results = Results(root)
     study = read_study(root / "study.json")
-    if not diagnosis_page.exists(study, results):
+    if not diagnosis_page.is_drawn(study, results):
         return {}
-    return dict(diagnosis_page.of_diagnosis(study, diagnosis.read(study, results)).figures)
+    return dict(diagnosis_page.page_of_diagnosis(study, diagnosis.read(study, results)).figures)
 
 
 def picture(name: str) -> Path:

@@ -19,7 +19,7 @@ from pyrofit.solver.lower import Substance
 from pyrofit.solver.lower_experiment import lower_layers, lower_places, lower_share
 from pyrofit.solver.lower_exposure import lower_exposure
 from pyrofit.solver.observe import observe
-from pyrofit.solver.run import Case, march, repeated
+from pyrofit.solver.run import Case, repeated_case, run_kernel
 
 
 def simulate_tga(
@@ -151,13 +151,13 @@ def _simulated(
 
     def run(factors: FloatArray | None, asked: Mapping[str, Request]) -> Runs:
         if factors is None:
-            return march(case, asked, _numerics(accuracy), threads)
-        runs = repeated(case, factors.size // sets)
+            return run_kernel(case, asked, _numerics(accuracy), threads)
+        runs = repeated_case(case, factors.size // sets)
         exposure = runs.description.exposure
         schedule = exposure.schedule.copy()
         schedule[FLUX] *= factors
         exposed = runs.description._replace(exposure=exposure._replace(schedule=schedule))
-        return march(runs._replace(description=exposed), asked, _numerics(accuracy), threads)
+        return run_kernel(runs._replace(description=exposed), asked, _numerics(accuracy), threads)
 
     return observe(experiment, values, located, run, sets).curves()
 

@@ -8,9 +8,9 @@ import pandas as pd
 from pyrofit.errors import StudyError
 from pyrofit_blind_test import foreign
 from pyrofit_blind_test.detectability import unexplained
-from pyrofit_blind_test.plan import Case
+from pyrofit_blind_test.plan import TwinPlan
 from pyrofit_blind_test.setting import Setting
-from pyrofit_blind_test.twin import describe
+from pyrofit_blind_test.twin import describe_twin
 
 
 def agreement(setting: Setting) -> pd.DataFrame:
@@ -36,7 +36,7 @@ def agreement(setting: Setting) -> pd.DataFrame:
 
 def _row(setting: Setting, folder: Path, name: str) -> dict[str, object]:
     truth = foreign.read_manifest(folder).truth(name)
-    case = Case(
+    case = TwinPlan(
         kind=truth.kind,
         hidden=truth.effects,
         strength=1.0,
@@ -45,7 +45,7 @@ def _row(setting: Setting, folder: Path, name: str) -> dict[str, object]:
         seed=0,
         curves=name,
     )
-    _, study = describe(setting, case)
+    _, study = describe_twin(setting, case)
     left = unexplained(study, foreign.clean(folder, name, study), setting.known)
     largest = max(float(np.abs(off).max()) for _, off in left.differences.values())
     return {

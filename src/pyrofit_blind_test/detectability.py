@@ -27,7 +27,7 @@ Channel = tuple[str, str]
 
 
 @dataclass(frozen=True, eq=False)
-class Misfit:
+class Shortfall:
     """How far the best model of some kind stays from the truth.
 
     Parameters
@@ -53,7 +53,7 @@ def detectability(
     series: Measurements,
     known: Mapping[str, float],
     fitted: Mapping[str, float] | None = None,
-) -> Misfit:
+) -> Shortfall:
     """Return by how many standard deviations of the noise the best base model misses the truth.
 
     sqrt(min over x of |L^-1 (base(x) - y) / sd|^2 + |(x_k - truth) / sd_k|^2). y are the noise-free
@@ -80,7 +80,7 @@ def detectability(
     return _least(truth, _base(truth, _noise_free(truth, series)), known, fitted)
 
 
-def unexplained(truth: Study, curves: Measurements, known: Mapping[str, float]) -> Misfit:
+def unexplained(truth: Study, curves: Measurements, known: Mapping[str, float]) -> Shortfall:
     """Return by how many standard deviations the true model misses noise-free curves.
 
     As `detectability`, but the model has the effects of the truth, and y are the given curves. For
@@ -94,7 +94,7 @@ def unexplained(truth: Study, curves: Measurements, known: Mapping[str, float]) 
     return _least(truth, _true(truth, curves), known)
 
 
-def located(windows: Iterable[OfWindow], misfit: Misfit) -> dict[str, int]:
+def located(windows: Iterable[OfWindow], misfit: Shortfall) -> dict[str, int]:
     """Return how many points lie in windows of the base, how many are off, and how many are both.
 
     A point is off where the base misses the truth by more than `ACTS`. With these counts the F1 of
@@ -118,7 +118,7 @@ def _least(
     problem: Problem,
     known: Mapping[str, float],
     fitted: Mapping[str, float] | None = None,
-) -> Misfit:
+) -> Shortfall:
     """Return the least misfit of a problem with noise-free targets.
 
     It is searched from the truth, and from fitted parameters if there are some.
@@ -134,7 +134,7 @@ def _least(
         starts.append(likelihood.scaled(_values(truth, problem, fitted)))
     end = min((likelihood.descend(x) for x in starts), key=lambda found: found.chi2)
     size, first = (math.sqrt(chi2) for chi2 in (end.chi2, likelihood.chi2(start)))
-    return Misfit(size, first, sum(likelihood.points), _differences(likelihood, end.x))
+    return Shortfall(size, first, sum(likelihood.points), _differences(likelihood, end.x))
 
 
 def _differences(

@@ -11,10 +11,10 @@ from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
 from pyrofit.effects import known_effects
 from pyrofit.results.files import Results
 from pyrofit.show import style
-from pyrofit.show.drawn import Look
+from pyrofit.show.drawn import DrawStyle
 from pyrofit_blind_test.places import Places
 from pyrofit_blind_test.power_figure import power_by_effect
-from pyrofit_blind_test.rates import SHARES, by_detectability, interval
+from pyrofit_blind_test.rates import SHARES, by_detectability, rate_interval
 from pyrofit_blind_test.table import one_name
 
 OTHER = ("ambiguous", "multiple", "partly", "unknown", "none")
@@ -99,7 +99,7 @@ def false_alarms(twins: pd.DataFrame) -> Canvas:
             seen = (nulls["signals"] == signals) | (signals == "all")
             here = nulls[(nulls["noise"] == noise) & seen]["claim"]
             hits, count = int(here.sum()), len(here)
-            low, high = interval(hits, count) if count else (np.nan, np.nan)
+            low, high = rate_interval(hits, count) if count else (np.nan, np.nan)
             share = hits / count if count else np.nan
             rows.append({"rate": share, "low": low, "high": high})
         _with_intervals(ax, pd.DataFrame(rows), i, len(sets), signals)
@@ -116,7 +116,7 @@ def false_alarms(twins: pd.DataFrame) -> Canvas:
     return canvas
 
 
-def _look(i: int) -> Look:
+def _look(i: int) -> DrawStyle:
     return {"color": style.colour(i), "marker": MARKERS[i], "markersize": 4, "linestyle": "none"}
 
 
@@ -157,7 +157,7 @@ def gaps(twins: pd.DataFrame) -> Canvas:
     return canvas
 
 
-def sets(twins: pd.DataFrame) -> Canvas:
+def draw_set_sizes(twins: pd.DataFrame) -> Canvas:
     """Draw the sizes of the sets of claimed effects, and the gain of held-out predictions."""
     claimed = twins[(twins["kind"] == "effect") & twins["claim"]]
     canvas, axes = style.panels(2, 2, style.TWO_COLUMNS, 75.0)
@@ -217,7 +217,7 @@ FIGURES: dict[str, tuple[Callable[[pd.DataFrame], Canvas], str]] = {
         "Noise alone gives 1. Points below the line are improvements.",
     ),
     "sets": (
-        sets,
+        draw_set_sizes,
         "Number of effects that a claim cannot distinguish, and gain of the log score of the "
         "held-out prediction by the claimed effect against detectability.",
     ),
@@ -225,7 +225,7 @@ FIGURES: dict[str, tuple[Callable[[pd.DataFrame], Canvas], str]] = {
 """How each figure is drawn, and its caption."""
 
 
-def draw_all(twins: pd.DataFrame, places: Places) -> None:
+def draw_blind_test(twins: pd.DataFrame, places: Places) -> None:
     """Write all figures to ``figures/<name>.svg`` and ``.png``."""
     with style.style():
         for name, (make, _) in FIGURES.items():

@@ -149,7 +149,7 @@ def clean(folder: Path, case: str, truth: Study) -> dict[tuple[str, str], pd.Dat
     }
 
 
-def series(folder: Path, case: str, truth: Study) -> dict[tuple[str, str], pd.DataFrame]:
+def series_of_case(folder: Path, case: str, truth: Study) -> dict[tuple[str, str], pd.DataFrame]:
     """Return the measurements of a case: its curves, with the noise that a study describes.
 
     The noise is drawn as that of synthetic measurements, by the seed of the study.

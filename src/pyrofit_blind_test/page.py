@@ -8,23 +8,23 @@ from pyrofit.errors import DataError
 from pyrofit.results.files import write_csv, write_text
 from pyrofit.show.text import markdown
 from pyrofit_blind_test import foreign
-from pyrofit_blind_test.figures import FIGURES, draw_all
+from pyrofit_blind_test.figures import FIGURES, draw_blind_test
 from pyrofit_blind_test.places import Places
 from pyrofit_blind_test.plan import cases_of
-from pyrofit_blind_test.power import power
+from pyrofit_blind_test.power import power_of_diagnosis
 from pyrofit_blind_test.rates import (
     DETECTABLE,
     bias,
     by_detectability,
     coverage,
+    cpu_times,
     middles,
     rates,
-    times,
-    windows,
+    window_rates,
 )
-from pyrofit_blind_test.recovery import parameters, strengths
+from pyrofit_blind_test.recovery import recovered_parameters, recovered_strengths
 from pyrofit_blind_test.setting import Setting
-from pyrofit_blind_test.table import diagnosed, twins
+from pyrofit_blind_test.table import diagnosed_twins, twins
 
 TABLES = (
     *("twins", "rates", "by_detectability", "power", "middles", "strengths", "coverage"),
@@ -72,26 +72,28 @@ def write_results(setting: Setting, plan: str, places: Places, so_far: bool = Fa
         is broken.
     """
     cases = (
-        _so_far(setting, plan, places) if so_far else diagnosed(places, setting.plan(plan).chunks)
+        _so_far(setting, plan, places)
+        if so_far
+        else diagnosed_twins(places, setting.plan(plan).chunks)
     )
-    found, of_strengths = twins(places, cases), strengths(places, cases)
-    of_parameters = parameters(places, cases)
+    found, of_strengths = twins(places, cases), recovered_strengths(places, cases)
+    of_parameters = recovered_parameters(places, cases)
     tables = {
         "twins": found,
         "rates": rates(found),
         "by_detectability": by_detectability(found),
-        "power": power(found),
+        "power": power_of_diagnosis(found),
         "middles": middles(found),
         "strengths": of_strengths,
         "coverage": coverage(of_strengths),
         "parameters": of_parameters,
         "bias": bias(of_parameters),
-        "windows": windows(found),
-        "times": times(found),
+        "windows": window_rates(found),
+        "times": cpu_times(found),
     }
     for name, frame in tables.items():
         write_csv(places.table(name), frame)
-    draw_all(found, places)
+    draw_blind_test(found, places)
     write_text(places.page, page(setting, plan, tables))
 
 

@@ -17,7 +17,7 @@ from pyrofit_blind_test import foreign
 from pyrofit_blind_test.setting import DescriptionError, Draft, Hidden, Kind, Plan, Setting
 
 
-class Case(Part):
+class TwinPlan(Part):
     """One twin.
 
     Seeds and names of twins are digests of these fields: a renamed field would draw other twins.
@@ -45,7 +45,7 @@ class Case(Part):
         return f"twin_{digest(identity)[:10]}"
 
 
-def cases_of(setting: Setting, name: str) -> tuple[Case, ...]:
+def cases_of(setting: Setting, name: str) -> tuple[TwinPlan, ...]:
     """Return the cases of a plan, sorted by their names, so that each job has cases of all kinds.
 
     A seed depends on the case alone: a larger plan keeps the cases it had.
@@ -64,7 +64,7 @@ def cases_of(setting: Setting, name: str) -> tuple[Case, ...]:
         makers = (_effects, _nulls, _forms, _pairs, _errors)
         drafts = [draft for make in makers for draft in make(setting, plan, base)]
     cases = sorted((_seeded(setting, plan, draft) for draft in drafts), key=lambda c: c.id)
-    taken: list[Case] = []
+    taken: list[TwinPlan] = []
     for case in cases:
         so_far = sum(other.kind == case.kind for other in taken)
         if so_far < plan.most.get(case.kind, len(cases)):
@@ -88,7 +88,7 @@ def _check_ranges(setting: Setting, base: Study) -> None:
             )
 
 
-def chunk_of(cases: tuple[Case, ...], chunk: int, chunks: int) -> tuple[Case, ...]:
+def chunk_of(cases: tuple[TwinPlan, ...], chunk: int, chunks: int) -> tuple[TwinPlan, ...]:
     """Return the cases of one job.
 
     Every case belongs to exactly one of the ``chunks`` jobs, numbered from 0.
@@ -96,14 +96,14 @@ def chunk_of(cases: tuple[Case, ...], chunk: int, chunks: int) -> tuple[Case, ..
     return cases[chunk::chunks]
 
 
-def strength_of(setting: Setting, effect: str, part: float = 1.0) -> dict[str, float]:
+def strength_at(setting: Setting, effect: str, part: float = 1.0) -> dict[str, float]:
     """Return the strength null + part (nominal - null) of an effect, by name, in SI units."""
     (name, quantity), *_ = known_effects()[effect].strength.items()
     nominal = setting.nominal.get(effect, quantity.typical)
     return {name: quantity.value + part * (nominal - quantity.value)}
 
 
-def experiments_of(setting: Setting, base: Study, signals: str) -> dict[str, Experiment]:
+def measured_by(setting: Setting, base: Study, signals: str) -> dict[str, Experiment]:
     """Return the fitted experiments of the base that measure one of a set of signals."""
     wanted = setting.signals[signals]
     return {
@@ -118,7 +118,7 @@ def _visible(
     setting: Setting, base: Study, effects: Mapping[str, Effect], signals: str, names: Hidden
 ) -> bool:
     """Tell whether some calibrated experiment can have each of the effects."""
-    experiments = experiments_of(setting, base, signals).values()
+    experiments = measured_by(setting, base, signals).values()
     return all(any(effects[name].needs(e) for e in experiments) for name in names)
 
 
@@ -127,7 +127,7 @@ def _effects(setting: Setting, plan: Plan, base: Study) -> Iterator[Draft]:
     count = 0
     for i, name in enumerate(effects):
         for j, part in enumerate(plan.strengths):
-            hidden = {name: strength_of(setting, name, part)}
+            hidden = {name: strength_at(setting, name, part)}
             for k, signals in enumerate(setting.signals):
                 if not _visible(setting, base, effects, signals, hidden):
                     continue
@@ -164,14 +164,14 @@ def _nulls(setting: Setting, plan: Plan, base: Study) -> Iterator[Draft]:
 
 def _forms(setting: Setting, plan: Plan, base: Study) -> Iterator[Draft]:
     for i, form in enumerate(setting.forms):
-        hidden = {n: strength_of(setting, n) | given for n, given in form.hidden.items()}
+        hidden = {n: strength_at(setting, n) | given for n, given in form.hidden.items()}
         more = {"kind": "form", "hidden": hidden, "without": form.without}
         yield from _seen(setting, base, more, list(setting.signals), plan.forms, i)
 
 
 def _pairs(setting: Setting, plan: Plan, base: Study) -> Iterator[Draft]:
     for i, pair in enumerate(setting.pairs):
-        more = {"kind": "pair", "hidden": {name: strength_of(setting, name) for name in pair}}
+        more = {"kind": "pair", "hidden": {name: strength_at(setting, name) for name in pair}}
         for draft in _seen(setting, base, more, list(setting.pair_signals), plan.pairs, i):
             yield {**draft, "left_out": plan.left_out == 1}
 
@@ -185,7 +185,7 @@ def _errors(setting: Setting, plan: Plan, base: Study) -> Iterator[Draft]:
 
 def _shows(setting: Setting, base: Study, error: DescriptionError, signals: str) -> bool:
     """Tell whether the experiments of a set of signals are of all kinds that an error changes."""
-    kinds = {experiment.kind for experiment in experiments_of(setting, base, signals).values()}
+    kinds = {experiment.kind for experiment in measured_by(setting, base, signals).values()}
     return set(error.truth) <= kinds
 
 
@@ -202,8 +202,10 @@ def _seen(
             yield {**more, "strength": 1.0, "signals": signals, "noise": noise, "seed": repeat}
 
 
-def _seeded(setting: Setting, plan: Plan, draft: Draft) -> Case:
+def _seeded(setting: Setting, plan: Plan, draft: Draft) -> TwinPlan:
     """Return the case of a draft; the seed of a draft is the number of its repetition."""
     start, end = setting.seeds[plan.seeds]
     identity = {key: value for key, value in draft.items() if key != "left_out"}
-    return Case(**{**draft, "seed": start + seed_for(start, digest(identity)) % (end - start + 1)})
+    return TwinPlan(
+        **{**draft, "seed": start + seed_for(start, digest(identity)) % (end - start + 1)}
+    )

@@ -19,7 +19,7 @@ ODDS = {"half": 1.0, "nine_tenths": 9.0}
 TAILS = (0.5, 0.025, 0.975)
 
 
-def power(twins: pd.DataFrame) -> pd.DataFrame:
+def power_of_diagnosis(twins: pd.DataFrame) -> pd.DataFrame:
     """Return the detectability from which half and nine tenths of the effects are rightly named.
 
     One row for all twins with one effect, and one for each effect with at least 4 of them.

@@ -6,8 +6,8 @@ from matplotlib.figure import Figure as Canvas
 from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
 
 from pyrofit.show import style
-from pyrofit.show.drawn import Look
-from pyrofit_blind_test.power import power
+from pyrofit.show.drawn import DrawStyle
+from pyrofit_blind_test.power import power_of_diagnosis
 
 LOOKS = {"half": "half named", "nine_tenths": "nine tenths named"}
 """Words of each share."""
@@ -15,7 +15,7 @@ LOOKS = {"half": "half named", "nine_tenths": "nine tenths named"}
 
 def power_by_effect(twins: pd.DataFrame) -> Canvas:
     """Draw the detectabilities from which shares of each effect are named, with 95 % intervals."""
-    table = power(twins)
+    table = power_of_diagnosis(twins)
     rows = np.arange(len(table))
     canvas, (ax,) = style.panels(1, 1, style.ONE_COLUMN + 25.0, 30.0 + 5.0 * max(len(table), 1))
     for i, share in enumerate(LOOKS if len(table) else ()):
@@ -35,6 +35,6 @@ def power_by_effect(twins: pd.DataFrame) -> Canvas:
     return canvas
 
 
-def _look(i: int) -> Look:
+def _look(i: int) -> DrawStyle:
     marker = ("o", "s")[i]
     return {"color": style.colour(i), "marker": marker, "markersize": 4, "linestyle": "none"}

@@ -25,7 +25,7 @@ class Rate:
     hit: str
 
 
-def interval(hits: int, of: int) -> tuple[float, float]:
+def rate_interval(hits: int, of: int) -> tuple[float, float]:
     """Return the 95 % interval of a rate (Clopper and Pearson 1934, doi 10.1093/biomet/26.4.404).
 
     Its coverage is at least 95 %, also for few twins.
@@ -34,7 +34,7 @@ def interval(hits: int, of: int) -> tuple[float, float]:
     --------
     No false alarm in 100: the rate is below 1 - 0.025^(1/100).
 
-    >>> [round(float(bound), 4) for bound in interval(0, 100)]
+    >>> [round(float(bound), 4) for bound in rate_interval(0, 100)]
     [0.0, 0.0362]
     """
     tail = 0.5 * (1.0 - LEVEL)
@@ -156,7 +156,7 @@ def _parts(twins: pd.DataFrame) -> Iterator[tuple[str, str, pd.DataFrame]]:
 
 def _rate(part: pd.DataFrame, hit: str) -> dict[str, float]:
     count, hits = len(part), int(part[hit].sum())
-    low, high = interval(hits, count) if count else (0.0, 1.0)
+    low, high = rate_interval(hits, count) if count else (0.0, 1.0)
     share = hits / count if count else np.nan
     return {"hits": hits, "twins": count, "rate": share, "low": low, "high": high}
 
@@ -196,7 +196,7 @@ def middles(twins: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def times(twins: pd.DataFrame) -> pd.DataFrame:
+def cpu_times(twins: pd.DataFrame) -> pd.DataFrame:
     """Return the CPU time of a diagnosis by its verdict [s]."""
     parts = [("all", twins), *twins.groupby("verdict")]
     return pd.DataFrame(
@@ -212,7 +212,7 @@ def times(twins: pd.DataFrame) -> pd.DataFrame:
     )
 
 
-def windows(twins: pd.DataFrame) -> pd.DataFrame:
+def window_rates(twins: pd.DataFrame) -> pd.DataFrame:
     """Return means of precision, recall and F1 of the windows, over effects of 10 sd or more."""
     seen = twins[_plain(twins)]
     names = ("window_precision", "window_recall", "window_f1")

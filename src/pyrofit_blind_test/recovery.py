@@ -10,7 +10,7 @@ from pyrofit.effects import known_effects
 from pyrofit.results.files import read_json
 from pyrofit.results.needed import Keys
 from pyrofit_blind_test.places import Places
-from pyrofit_blind_test.table import leading, right_claim
+from pyrofit_blind_test.table import leading_effects, right_claim
 
 Found = Mapping[str, Any]
 STRENGTHS = (
@@ -32,7 +32,7 @@ _NEEDS: dict[Keys, type] = {
 }
 
 
-def strengths(places: Places, cases: Iterable[str]) -> pd.DataFrame:
+def recovered_strengths(places: Places, cases: Iterable[str]) -> pd.DataFrame:
     """Return one row for each hidden effect that is named, see `strength_rows`.
 
     Raises
@@ -45,7 +45,7 @@ def strengths(places: Places, cases: Iterable[str]) -> pd.DataFrame:
     )
 
 
-def parameters(places: Places, cases: Iterable[str]) -> pd.DataFrame:
+def recovered_parameters(places: Places, cases: Iterable[str]) -> pd.DataFrame:
     """Return one row for each parameter of each twin with hidden effects, see `parameter_rows`.
 
     Raises
@@ -76,7 +76,7 @@ def strength_rows(found: Found) -> Iterator[dict[str, object]]:
     case = found["case"]
     if case["curves"] and case["kind"] == "form":
         return
-    for effect in leading(found["verdict"]):
+    for effect in leading_effects(found["verdict"]):
         if effect not in case["hidden"]:
             continue
         (parameter,) = known_effects()[effect].strength

@@ -15,7 +15,7 @@ from pyrofit.results.diagnosis_schema import Diagnosis, OfScreen
 from pyrofit.results.files import read_json, write_json
 from pyrofit_blind_test.detectability import detectability, located
 from pyrofit_blind_test.places import Places
-from pyrofit_blind_test.plan import Case, cases_of, chunk_of
+from pyrofit_blind_test.plan import TwinPlan, cases_of, chunk_of
 from pyrofit_blind_test.setting import Setting, files_digest
 from pyrofit_blind_test.twin import make_twin, read_twin, without_effects, write_twin
 
@@ -57,13 +57,15 @@ def code_fingerprint() -> str:
     return digest([source_fingerprint(__name__, "pyrofit.diagnose.diagnosis"), effects])
 
 
-def case_digest(setting: Setting, case: Case) -> str:
+def case_digest(setting: Setting, case: TwinPlan) -> str:
     """Return a digest of everything that the result of a case depends on."""
     of_twins = setting.model_dump(exclude={"plans", "seeds", "nominal", "forms", "pairs"})
     return digest([case.model_dump(), of_twins, files_digest(setting), code_fingerprint()])
 
 
-def run_case(setting: Setting, case: Case, places: Places, diagnose: Diagnose) -> dict[str, Any]:
+def run_case(
+    setting: Setting, case: TwinPlan, places: Places, diagnose: Diagnose
+) -> dict[str, Any]:
     """Compute and diagnose one twin; return verdict and truth.
 
     The diagnosis reads only the files of the twin's study and measurements.
@@ -94,7 +96,7 @@ def run_case(setting: Setting, case: Case, places: Places, diagnose: Diagnose) -
     return result | {"seconds": seconds}
 
 
-def removed(case: Case) -> tuple[str, ...]:
+def removed(case: TwinPlan) -> tuple[str, ...]:
     """Return the hidden effects that a second diagnosis does not consider: of a pair, the second.
 
     The first of a pair then has an effect beside it that is in no catalogue.
@@ -108,7 +110,7 @@ def largest_score(screen: Sequence[OfScreen]) -> str:
     return max(scores, key=lambda name: scores[name], default="")
 
 
-def _is_done(places: Places, case: Case, made_of: str) -> bool:
+def _is_done(places: Places, case: TwinPlan, made_of: str) -> bool:
     try:
         return bool(read_json(places.case(case.id), {("digest",): str})["digest"] == made_of)
     except DataError:

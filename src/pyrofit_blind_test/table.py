@@ -41,7 +41,7 @@ def twins(places: Places, cases: Iterable[str]) -> pd.DataFrame:
     return pd.DataFrame([row_of(read_json(places.case(case), _NEEDS)) for case in sorted(cases)])
 
 
-def diagnosed(places: Places, chunks: int) -> list[str]:
+def diagnosed_twins(places: Places, chunks: int) -> list[str]:
     """Return the names of the twins of all jobs of a plan.
 
     Raises
@@ -63,7 +63,7 @@ def row_of(found: Mapping[str, Any]) -> dict[str, object]:
     """
     case, verdict = found["case"], found["verdict"]
     hidden = set(case["hidden"])
-    named = leading(verdict)
+    named = leading_effects(verdict)
     claim, right = bool(named), right_claim(found)
     listed = _one_name({*verdict["effects"], *(n for names in verdict["sets"] for n in names)})
     score_only = {found["score_only"]} - {""}
@@ -105,11 +105,11 @@ def right_claim(found: Mapping[str, Any]) -> bool:
 
     An effect that describes an error of the description counts as hidden.
     """
-    named, case = leading(found["verdict"]), found["case"]
+    named, case = leading_effects(found["verdict"]), found["case"]
     return bool(named) and _one_name(named) <= _one_name({*case["hidden"], *case.get("same", ())})
 
 
-def leading(verdict: Verdict) -> list[str]:
+def leading_effects(verdict: Verdict) -> list[str]:
     """Return the leading effect of each finding of a verdict, none if it makes no claim."""
     return [str(name) for name in verdict["effects"]] if verdict["kind"] in CLAIMS else []
 
@@ -180,7 +180,7 @@ def _left_out(hidden: set[str], verdict: Verdict | None) -> dict[str, object]:
             "left_out_wrong": False,
             "kept_named": False,
         }
-    named = leading(verdict) if verdict["confirmed"] else []
+    named = leading_effects(verdict) if verdict["confirmed"] else []
     return {
         "left_out": verdict["kind"],
         "left_out_named": " + ".join(named),

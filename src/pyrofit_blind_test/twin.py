@@ -19,7 +19,7 @@ from pyrofit.stages.measurements import computed
 from pyrofit.stages.reading import read_all
 from pyrofit_blind_test import foreign
 from pyrofit_blind_test.places import Places
-from pyrofit_blind_test.plan import Case
+from pyrofit_blind_test.plan import TwinPlan
 from pyrofit_blind_test.setting import Setting
 
 Given = dict[str, Any]
@@ -42,13 +42,13 @@ class Twin:
         Measurements by (experiment, signal).
     """
 
-    case: Case
+    case: TwinPlan
     study: Given
     truth: Study
     series: Mapping[tuple[str, str], pd.DataFrame]
 
 
-def make_twin(setting: Setting, case: Case) -> Twin:
+def make_twin(setting: Setting, case: TwinPlan) -> Twin:
     """Compute the measurements of a case, bit for bit the same for the same case.
 
     Raises
@@ -58,13 +58,15 @@ def make_twin(setting: Setting, case: Case) -> Twin:
     DataError
         The reference solver does not finish, or a curve of another code is missing.
     """
-    study, truth = describe(setting, case)
+    study, truth = describe_twin(setting, case)
     if case.curves:
-        return Twin(case, study, truth, foreign.series(Path(setting.curves), case.curves, truth))
+        return Twin(
+            case, study, truth, foreign.series_of_case(Path(setting.curves), case.curves, truth)
+        )
     return Twin(case, study, truth, computed(truth))
 
 
-def describe(setting: Setting, case: Case) -> tuple[Given, Study]:
+def describe_twin(setting: Setting, case: TwinPlan) -> tuple[Given, Study]:
     """Return the keys of the study that the diagnosis reads, and the study of the truth.
 
     Raises
@@ -129,7 +131,7 @@ def _leave_out(study: Given, without: tuple[str, ...], path: Path) -> None:
         study["diagnosis"]["effects"] = list(candidate_effects(left))
 
 
-def _with_signals(setting: Setting, case: Case) -> Given:
+def _with_signals(setting: Setting, case: TwinPlan) -> Given:
     """Return the keys of the base with the experiments, signals and noise of a case."""
     base: Given = json.loads(json.dumps(read_mapping(Path(setting.base))))
     held_out = setting.held_out
@@ -150,7 +152,7 @@ def _with_signals(setting: Setting, case: Case) -> Given:
     return base | _stages(setting, base)
 
 
-def _noise(setting: Setting, case: Case, quantity: str, given: Any) -> Given:
+def _noise(setting: Setting, case: TwinPlan, quantity: str, given: Any) -> Given:
     size = given["sd"] if isinstance(given, dict) else given
     return {"sd": size, **setting.noise[case.noise].get(quantity, {})}
 
@@ -195,14 +197,14 @@ def _merged(part: Any, changes: Mapping[str, Any]) -> Given:
     return merged
 
 
-def _draw(setting: Setting, base: Given, case: Case) -> dict[str, float]:
+def _draw(setting: Setting, base: Given, case: TwinPlan) -> dict[str, float]:
     """Draw the truth of a case uniformly around that of the base, in the parameters' units."""
     rng = np.random.default_rng([case.seed, 0])
     truth: dict[str, float] = base["synthetic"]["truth"]
     return {n: at + float(rng.uniform(-1, 1)) * setting.vary.get(n, 0.0) for n, at in truth.items()}
 
 
-def _stored(setting: Setting, case: Case) -> dict[str, float]:
+def _stored(setting: Setting, case: TwinPlan) -> dict[str, float]:
     """Return the truth of curves of another code, in the parameters' units."""
     values = foreign.read_manifest(Path(setting.curves)).truth(case.curves).values
     parameters = read_study(Path(setting.base)).parameters
@@ -212,7 +214,7 @@ def _stored(setting: Setting, case: Case) -> dict[str, float]:
     return {name: value / parameters[name].factor for name, value in values.items()}
 
 
-def _known(setting: Setting, base: Given, truth: Mapping[str, float], case: Case) -> Given:
+def _known(setting: Setting, base: Given, truth: Mapping[str, float], case: TwinPlan) -> Given:
     """Draw known values of the kinetics around the truth, within the limits."""
     rng = np.random.default_rng([case.seed, 1])
     known = {}
@@ -225,7 +227,7 @@ def _known(setting: Setting, base: Given, truth: Mapping[str, float], case: Case
     return known
 
 
-def _wrong(setting: Setting, truth: Mapping[str, float], case: Case) -> Given:
+def _wrong(setting: Setting, truth: Mapping[str, float], case: TwinPlan) -> Given:
     """Return the known values that are wrong in a case."""
     if not case.error:
         return {}
@@ -236,7 +238,7 @@ def _wrong(setting: Setting, truth: Mapping[str, float], case: Case) -> Given:
     }
 
 
-def _as_it_is(setting: Setting, base: Given, case: Case) -> Given:
+def _as_it_is(setting: Setting, base: Given, case: TwinPlan) -> Given:
     """Return the keys of the truth, whose experiments differ where the description is wrong."""
     changes = setting.errors[case.error].truth if case.error else {}
     experiments = {
@@ -246,7 +248,7 @@ def _as_it_is(setting: Setting, base: Given, case: Case) -> Given:
     return {**base, "experiments": experiments}
 
 
-def _without_truth(case: Case, base: Given, known: Given) -> Given:
+def _without_truth(case: TwinPlan, base: Given, known: Given) -> Given:
     """Return the keys of the study of a twin, with files instead of the truth."""
     study = {key: value for key, value in base.items() if key not in ("synthetic", "seed")}
     study["name"] = case.id

@@ -57,4 +57,4 @@ def compare_with(
     root = Results(own if results is None else path_of("results", results))
     given, files = path_of("tests", tests), paths_of("predictions", predictions)
     chosen = word_of("parameter_set", parameter_set)
-    return compute.compare_with(checked, root, given, files, chosen, beside)
+    return compute.compute_comparison(checked, root, given, files, chosen, beside)

@@ -18,7 +18,7 @@ class Apparatus:
     fit: Fit | None = None
 
 
-def calibrated(
+def fit_apparatus(
     path: Path, study: Study, runs: Sequence[str], names: Sequence[str], values: Mapping[str, float]
 ) -> Apparatus:
     """Fit numbers of an apparatus to runs on inert bodies, by maximum likelihood as `pf.fit` does.

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     import pandas as pd
 
-    from pyrofit_compare.published import Published
+    from pyrofit_compare.published import PublishedSet
 
 
 def add(commands: Any) -> None:
@@ -59,15 +59,15 @@ def _add_compare_with(commands: Any) -> None:
 def _compare(given: argparse.Namespace) -> None:
     from pyrofit.config import read_study
     from pyrofit.results.files import Results
-    from pyrofit_compare.compute import compare_with
-    from pyrofit_compare.page import summary, write
+    from pyrofit_compare.compute import compute_comparison
+    from pyrofit_compare.page import mean_errors, write
 
     study = read_study(given.study)
     results = Results(given.results or Path("results") / study.name)
-    found = compare_with(
+    found = compute_comparison(
         study, results, given.tests, given.predictions, given.set, given.study.parent
     )
-    print(summary(found.scores).round(3).to_string(index=False))
+    print(mean_errors(found.scores).round(3).to_string(index=False))
     print(write(found, given.out or results.root / "compare_with"))
 
 
@@ -75,18 +75,18 @@ def _materials(given: argparse.Namespace) -> None:
     from pyrofit_compare import published
 
     sets, left = published.published(given.folder)
-    sets = published.chosen(sets, given.names)
+    sets = published.chosen_sets(sets, given.names)
     if given.show:
         _show(sets.values())
         return
     if given.study is None:
-        frame = published.overview(sets)
+        frame = published.overview_of_sets(sets)
         remarks = left
     else:
         from pyrofit.config import read_study
 
-        errors, remarks = published.errors(read_study(given.study), sets)
-        frame = published.by_signal(errors).reset_index()
+        errors, remarks = published.errors_of_published(read_study(given.study), sets)
+        frame = published.means_by_signal(errors).reset_index()
         print("root mean square error over the range of the measured mean")
     print(frame.round(3).to_string(index=False, na_rep="-"))
     for remark in remarks:
@@ -102,7 +102,7 @@ def _long(errors: "pd.DataFrame") -> "pd.DataFrame":
     return long.rename(columns={0: "error"})
 
 
-def _show(sets: Iterable["Published"]) -> None:
+def _show(sets: Iterable["PublishedSet"]) -> None:
     import json
 
     from pyrofit_exchange.macfp.material import material_of

@@ -17,8 +17,8 @@ from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages.reading import read_all
 from pyrofit_compare.apparatus import Apparatus
 from pyrofit_compare.given import exposure, group_of, read_tests, thickness
-from pyrofit_compare.others import Curve, matching, read_predictions
-from pyrofit_compare.score import Mean, at_times, mean_of, nrms
+from pyrofit_compare.others import PredictedCurve, matching, read_predictions
+from pyrofit_compare.score import Mean, mean_at_times, mean_of, nrms
 from pyrofit_exchange.sets import parameter_set
 
 OURS, REPEATS = "this study", "scatter of repeats"
@@ -64,7 +64,7 @@ class ComparedWith:
     apparatus: Apparatus
 
 
-def compare_with(
+def compute_comparison(
     study: Study,
     results: Results,
     tests: Path,
@@ -98,7 +98,7 @@ def compare_with(
         except DataError as error:
             raise DataError(f"{tests}: experiments.{key[0]}: {key[1]}: {error}.") from None
         by_who = {OURS: ours[key], **_others(given.study, values, key, others.curves)}
-        found[key] = {who: at_times(means[key], curves) for who, curves in by_who.items()}
+        found[key] = {who: mean_at_times(means[key], curves) for who, curves in by_who.items()}
         rows += _scored(key, means[key], found[key])
     counts = {key: mean.repeats for key, mean in means.items()}
     scores = pd.DataFrame(rows)
@@ -188,7 +188,7 @@ def both_records(
 
 
 def _others(
-    study: Study, values: Mapping[str, float], key: Key, others: Sequence[Curve]
+    study: Study, values: Mapping[str, float], key: Key, others: Sequence[PredictedCurve]
 ) -> dict[str, list[Record]]:
     """Return the curves of others for a signal, from the start of the exposure."""
     name = next(n for n in study.experiments if group_of(study, n) == key[0])

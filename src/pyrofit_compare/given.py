@@ -13,7 +13,7 @@ from pyrofit.errors import StudyError, suggest
 from pyrofit.model.base import value_of
 from pyrofit.model.slab import SlabExperiment
 from pyrofit.stages.reading import SYNTHETIC
-from pyrofit_compare.apparatus import Apparatus, calibrated
+from pyrofit_compare.apparatus import Apparatus, fit_apparatus
 
 KEYS = ("experiments", "components", "parameters", "inert", "known", "area_m2", "assumed")
 NAMED = ("experiments", "inert", "parameters")
@@ -82,7 +82,7 @@ def read_tests(path: Path, study: Study, values: Mapping[str, float]) -> Given:
     own = with_shared(every.material, own, study.with_effects)
     every = every.model_copy(update={"experiments": {**every.experiments, **own}})
     runs = [n for n in own if group_of(every, n) in inert]
-    apparatus = calibrated(path, every, runs, list(parameters), values)
+    apparatus = fit_apparatus(path, every, runs, list(parameters), values)
     new = every.model_copy(update={"experiments": {n: own[n] for n in own if n not in runs}})
     assumed = _assumed(path, keys, tests)
     return Given(new, apparatus, _area(path, keys), (*assumed, *_shared(study, new)))

@@ -32,7 +32,7 @@ COLUMNS = (
 _TIME = re.compile(r"#?\s*(time|t)\b", re.IGNORECASE)
 
 
-class Curve(NamedTuple):
+class PredictedCurve(NamedTuple):
     """A predicted curve.
 
     Parameters
@@ -58,14 +58,14 @@ class Curve(NamedTuple):
     file: Path
 
 
-class Predictions(NamedTuple):
+class OtherPredictions(NamedTuple):
     """Predicted curves, and why files of folders are left out, in words."""
 
-    curves: list[Curve]
+    curves: list[PredictedCurve]
     left: list[str]
 
 
-def read_predictions(paths: Iterable[Path], area_m2: float) -> Predictions:
+def read_predictions(paths: Iterable[Path], area_m2: float) -> OtherPredictions:
     """Read files, and all CSV files of folders, whose names state a flux.
 
     Files of folders with other names, such as those of TGA, are passed over. A file of a folder
@@ -78,7 +78,7 @@ def read_predictions(paths: Iterable[Path], area_m2: float) -> Predictions:
         A file that is named itself is missing, its name states no flux, or a column breaks a rule.
         A folder has no file that can be read.
     """
-    curves: list[Curve] = []
+    curves: list[PredictedCurve] = []
     left: list[str] = []
     for path in paths:
         if not path.is_dir():
@@ -95,10 +95,10 @@ def read_predictions(paths: Iterable[Path], area_m2: float) -> Predictions:
         if not read:
             said = left[0] if left else f"{path}: no file has a name such as {FORMS}. Rename them."
             raise DataError(said)
-    return Predictions(curves, left)
+    return OtherPredictions(curves, left)
 
 
-def read_prediction(path: Path, area_m2: float) -> list[Curve]:
+def read_prediction(path: Path, area_m2: float) -> list[PredictedCurve]:
     """Read the curves of one file.
 
     Raises
@@ -130,7 +130,7 @@ def read_prediction(path: Path, area_m2: float) -> list[Curve]:
             frame = read_series(spec, lambda _: table).frame
             value = frame[known_quantities()[quantity].column].to_numpy(float)
             time = frame["time_s"].to_numpy(float)
-            curves.append(Curve(told["who"], flux, thick, quantity, time, value, path))
+            curves.append(PredictedCurve(told["who"], flux, thick, quantity, time, value, path))
     if not curves:
         raise DataError(
             f"{path}: no column is known: {', '.join(names)}. Name one `Mass`, `MLR`, `T Back` or "
@@ -140,8 +140,8 @@ def read_prediction(path: Path, area_m2: float) -> list[Curve]:
 
 
 def matching(
-    curves: Sequence[Curve], flux_W_m2: float, thickness_m: float, quantity: str
-) -> list[Curve]:
+    curves: Sequence[PredictedCurve], flux_W_m2: float, thickness_m: float, quantity: str
+) -> list[PredictedCurve]:
     """Return the curves of a flux (within 3 %) and thickness (within 10 %, where it is stated).
 
     A mass loss rate is derived from a mass of who gives no rate. Temperatures of the back stand for
@@ -161,7 +161,7 @@ def matching(
     return found
 
 
-def _rate(curve: Curve) -> Curve:
+def _rate(curve: PredictedCurve) -> PredictedCurve:
     """Return the mass loss rate of a predicted mass: differences, means over the intervals."""
     middle = 0.5 * (curve.time_s[1:] + curve.time_s[:-1])
     rate = -np.diff(curve.value) / np.diff(curve.time_s)

@@ -19,7 +19,7 @@ def write(found: ComparedWith, folder: Path) -> Path:
     """Write scores, their summary, a page and a figure for each signal; return the page."""
     folder.mkdir(parents=True, exist_ok=True)
     write_csv(folder / TABLE, found.scores)
-    write_csv(folder / SUMMARY, summary(found.scores))
+    write_csv(folder / SUMMARY, mean_errors(found.scores))
     figures = {key: f"{key[0]}_{key[1]}.png" for key in found.means}
     for key, name in figures.items():
         _draw(found, key, folder / name)
@@ -27,7 +27,7 @@ def write(found: ComparedWith, folder: Path) -> Path:
     return folder / PAGE
 
 
-def summary(scores: pd.DataFrame) -> pd.DataFrame:
+def mean_errors(scores: pd.DataFrame) -> pd.DataFrame:
     """Return the mean error of each predictor, and that of this study at the same times.
 
     Columns: who, cases, mean_nrms, this_study, and repeats: means over the same cases. Sorted by
@@ -60,7 +60,7 @@ def _lines(found: ComparedWith, figures: dict[Key, str]) -> list[str]:
         "| who | cases | mean error | this study, same times | scatter of repeats |",
         "|---|---|---|---|---|",
     ]
-    for row in summary(scores).to_dict("records"):
+    for row in mean_errors(scores).to_dict("records"):
         cells = [_shown(row[k]) for k in ("mean_nrms", "this_study", "repeats")]
         lines.append(f"| {row['who']} | {row['cases']} | {' | '.join(cells)} |")
     if scores["who"].isin([OURS, REPEATS]).all():

@@ -17,7 +17,7 @@ from pyrofit.model.slab import SlabExperiment
 from pyrofit.stages.reading import SYNTHETIC
 from pyrofit_compare.compute import REPEATS, Key, Series, both_records, measured_series
 from pyrofit_compare.from_fds import set_of_fds
-from pyrofit_compare.score import at_times, mean_of, nrms
+from pyrofit_compare.score import mean_at_times, mean_of, nrms
 from pyrofit_exchange.macfp.material import has_heat, material_of
 from pyrofit_exchange.macfp.read import read_set
 from pyrofit_exchange.macfp.schema import StrictSet
@@ -28,7 +28,7 @@ LIBRARY = Path(__file__).parent / "library"
 """Materials of FDS's validation, which NIST has put into the public domain."""
 
 
-class Published(NamedTuple):
+class PublishedSet(NamedTuple):
     """A published parameter set.
 
     Parameters
@@ -46,7 +46,7 @@ class Published(NamedTuple):
     remarks: tuple[str, ...] = ()
 
 
-def published(folder: Path | None = None) -> tuple[dict[str, Published], list[str]]:
+def published(folder: Path | None = None) -> tuple[dict[str, PublishedSet], list[str]]:
     """Return published sets by name, and files left out.
 
     Parameters
@@ -78,10 +78,10 @@ def published(folder: Path | None = None) -> tuple[dict[str, Published], list[st
     return found | of_base, left + others
 
 
-def _sets_in(root: Path) -> tuple[dict[str, Published], list[str]]:
+def _sets_in(root: Path) -> tuple[dict[str, PublishedSet], list[str]]:
     """Return the sets of a copy of the data base, or else of a folder."""
     paths = sorted(root.glob(f"*/{FOLDER}/**/*.json"))
-    found: dict[str, Published] = {}
+    found: dict[str, PublishedSet] = {}
     left = []
     for path in paths or [*sorted(root.glob("*.json")), *sorted(root.glob("*.fds"))]:
         try:
@@ -91,13 +91,13 @@ def _sets_in(root: Path) -> tuple[dict[str, Published], list[str]]:
     return found, left
 
 
-def _published(path: Path) -> Published:
+def _published(path: Path) -> PublishedSet:
     if path.suffix == ".fds":
-        return Published(path.stem, *set_of_fds(path))
-    return Published(path.stem, read_set(path).strict)
+        return PublishedSet(path.stem, *set_of_fds(path))
+    return PublishedSet(path.stem, read_set(path).strict)
 
 
-def chosen(sets: Mapping[str, Published], names: Sequence[str]) -> dict[str, Published]:
+def chosen_sets(sets: Mapping[str, PublishedSet], names: Sequence[str]) -> dict[str, PublishedSet]:
     """Return the sets of some names, or with these parts in their names; by default all.
 
     Raises
@@ -105,7 +105,7 @@ def chosen(sets: Mapping[str, Published], names: Sequence[str]) -> dict[str, Pub
     DataError
         No set has such a name.
     """
-    found: dict[str, Published] = {}
+    found: dict[str, PublishedSet] = {}
     for name in names:
         exact = {name: sets[name]} if name in sets else {}
         some = exact or {k: one for k, one in sets.items() if name.lower() in k.lower()}
@@ -115,7 +115,7 @@ def chosen(sets: Mapping[str, Published], names: Sequence[str]) -> dict[str, Pub
     return found or dict(sets)
 
 
-def overview(sets: Mapping[str, Published]) -> pd.DataFrame:
+def overview_of_sets(sets: Mapping[str, PublishedSet]) -> pd.DataFrame:
     """Return a row for each set: material, laboratory, reactions, what it describes."""
     return pd.DataFrame(
         {
@@ -130,7 +130,9 @@ def overview(sets: Mapping[str, Published]) -> pd.DataFrame:
     )
 
 
-def errors(study: Study, sets: Mapping[str, Published]) -> tuple[pd.DataFrame, list[str]]:
+def errors_of_published(
+    study: Study, sets: Mapping[str, PublishedSet]
+) -> tuple[pd.DataFrame, list[str]]:
     """Return the error of each set at each test of a study, and remarks.
 
     The error is that of `pyrofit_compare.score.nrms`, the root mean square of the predicted
@@ -177,7 +179,7 @@ def errors(study: Study, sets: Mapping[str, Published]) -> tuple[pd.DataFrame, l
     return frame, remarks
 
 
-def by_signal(found: pd.DataFrame) -> pd.DataFrame:
+def means_by_signal(found: pd.DataFrame) -> pd.DataFrame:
     """Return the mean of errors over all tests, and over the tests of each signal."""
     signals = found.T.groupby(level="signal", sort=False).mean().T
     return signals.assign(**{MEAN: found.mean(axis=1)})[[MEAN, *signals.columns]]
@@ -196,7 +198,7 @@ def _obstacle(experiment: Experiment, values: Mapping[str, float]) -> str:
 def _errors_of(
     study: Study,
     series: Series,
-    one: Published,
+    one: PublishedSet,
     values: Mapping[str, float],
     floors: dict[Key, float],
 ) -> dict[Key, float]:
@@ -211,11 +213,11 @@ def _errors_of(
         mean = mean_of(repeats)
         label = test, signal
         floors[label] = mean.floor
-        found[label] = nrms(mean, at_times(mean, simulated[test, signal]))
+        found[label] = nrms(mean, mean_at_times(mean, simulated[test, signal]))
     return found
 
 
-def shown_by(study: Study, one: Published) -> dict[str, Experiment]:
+def shown_by(study: Study, one: PublishedSet) -> dict[str, Experiment]:
     """Return the experiments of a study that a set can describe: TGA alone if it has no heats."""
     return {
         name: experiment
@@ -230,7 +232,7 @@ def _shows_kinetics_alone(experiment: Experiment) -> bool:
     return weighed and kind_of(experiment).stage == "kinetics"
 
 
-def material_in(study: Study, one: Published) -> Material:
+def material_in(study: Study, one: PublishedSet) -> Material:
     """Return the material of a set, with the components of the apparatus of a study."""
     given = material_of(one.strict)
     slabs = [e for e in study.experiments.values() if isinstance(e, SlabExperiment)]

@@ -75,7 +75,7 @@ def mean_of(repeats: Sequence[tuple[FloatArray, FloatArray]]) -> Mean:
     return mean
 
 
-def at_times(mean: Mean, curves: Sequence[tuple[FloatArray, FloatArray]]) -> FloatArray:
+def mean_at_times(mean: Mean, curves: Sequence[tuple[FloatArray, FloatArray]]) -> FloatArray:
     """Return the mean of curves (times, values) at the times of a mean; NaN where one has none."""
     every = [np.interp(mean.time_s, t, y, left=np.nan, right=np.nan) for t, y in curves]
     return np.asarray(np.mean(every, axis=0))

@@ -91,12 +91,12 @@ def _check_fds(given: argparse.Namespace) -> None:
     from pyrofit.external.fds import find_fds
     from pyrofit.results import dependencies
     from pyrofit_exchange import fds_page
-    from pyrofit_exchange.fds.check import check
+    from pyrofit_exchange.fds.check import check_decks
     from pyrofit_exchange.sets import parameter_set
 
     study, results = open_study(given, dependencies.presentation)
     chosen = parameter_set(study, results, given.set, given.study.parent)
-    check(study, chosen, find_fds(), results.fds(""), _tell, given.limit)
+    check_decks(study, chosen, find_fds(), results.fds(""), _tell, given.limit)
     fds_page.draw_and_write(study, results)
     print(f"{results.fds('check.md')}: FDS beside pyrofit", file=sys.stderr)
 

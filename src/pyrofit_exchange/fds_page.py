@@ -38,7 +38,7 @@ def entries(results: Results) -> list[dict[str, Any]]:
     return found
 
 
-def exists(study: Study, results: Results) -> bool:
+def was_run(study: Study, results: Results) -> bool:
     """Whether the decks have been run in FDS."""
     return results.fds("fds.svg").is_file()
 
@@ -91,7 +91,7 @@ def _about(study: Study, results: Results) -> str:
 def _draw(ax: Axes, signal: str, part: pd.DataFrame) -> None:
     quantity = known_quantities()[signal]
     timed = "time_s" in part and part["time_s"].notna().all()
-    x = part["time_s"] if timed else style.celsius(part["temperature_K"])
+    x = part["time_s"] if timed else style.axis_celsius(part["temperature_K"])
     ax.plot(x, shown(quantity, part["pyrofit"]), color="black")
     ax.plot(x, shown(quantity, part["fds"]), color=style.colour(1), linestyle="--")
     ax.set_xlabel("time [s]" if timed else "temperature [°C]")
@@ -113,7 +113,7 @@ PAGE = Page(
     folders=("fds", "fds"),
     written=False,
     about={0: _about},
-    exists=exists,
+    exists=was_run,
 )
 
 

@@ -13,7 +13,7 @@ FROM_K, TO_K = 290.0, 800.0
 EXACT = 1e-6
 
 
-class Form(NamedTuple):
+class FittedForm(NamedTuple):
     """Coefficients of a form, and the largest relative error between `FROM_K` and `TO_K`."""
 
     coefficients: tuple[float, ...]
@@ -26,7 +26,7 @@ def _part(table: FloatArray) -> tuple[FloatArray, FloatArray]:
     return T[kept], np.broadcast_to(table, T.shape)[kept]
 
 
-def power_law(table: FloatArray, reference_K: float) -> Form:
+def power_law(table: FloatArray, reference_K: float) -> FittedForm:
     """Return p0 and n of p = p0 (T/T_ref)^n, fitted to a property at the solver's nodes.
 
     >>> power_law(np.array([2.0]), 300.0).coefficients
@@ -34,13 +34,15 @@ def power_law(table: FloatArray, reference_K: float) -> Form:
     """
     T, p = _part(table)
     if np.ptp(p) <= EXACT * abs(float(p[0])):
-        return Form((float(p[0]), 0.0), 0.0)
+        return FittedForm((float(p[0]), 0.0), 0.0)
     n, log_p0 = linear.polynomial(functions.log(T / reference_K), functions.log(p), 1)
     fitted = functions.exp(log_p0) * functions.power(T / reference_K, n)
-    return Form((float(functions.exp(log_p0)), float(n)), float(np.abs(fitted / p - 1.0).max()))
+    return FittedForm(
+        (float(functions.exp(log_p0)), float(n)), float(np.abs(fitted / p - 1.0).max())
+    )
 
 
-def quadratic(table: FloatArray) -> Form:
+def quadratic(table: FloatArray) -> FittedForm:
     """Return p0, p1, p2 of p = p0 + p1 T + p2 T^2, a straight line where that is enough.
 
     >>> quadratic(np.array([2.0])).coefficients
@@ -48,16 +50,16 @@ def quadratic(table: FloatArray) -> Form:
     """
     T, p = _part(table)
     if np.ptp(p) <= EXACT * abs(float(p[0])):
-        return Form((float(p[0]), 0.0, 0.0), 0.0)
+        return FittedForm((float(p[0]), 0.0, 0.0), 0.0)
     for degree in (1, 2):
         c = linear.polynomial(T, p, degree)[::-1]
         error = float(np.abs(np.polynomial.polynomial.polyval(T, c) / p - 1.0).max())
         if error <= EXACT:
             break
-    return Form((*map(float, c), *[0.0] * (2 - degree)), error)
+    return FittedForm((*map(float, c), *[0.0] * (2 - degree)), error)
 
 
-def remark_on(form: Form, what: str, words: str) -> list[Remark]:
+def remark_on(form: FittedForm, what: str, words: str) -> list[Remark]:
     """Return the remark on a form that is not exact."""
     if form.error <= 1e-4:
         return []

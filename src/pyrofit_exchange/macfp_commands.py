@@ -78,16 +78,16 @@ def _material(given: argparse.Namespace) -> None:
 
 
 def _predict(given: argparse.Namespace) -> None:
-    from pyrofit_exchange.macfp.compare import compared
+    from pyrofit_exchange.macfp.compare import comparison_tables
 
-    for line in compared(given.files, given.cases, given.out):
+    for line in comparison_tables(given.files, given.cases, given.out):
         print(line)
 
 
 def _submit(given: argparse.Namespace) -> None:
     from pyrofit.config import read_study
     from pyrofit.results.files import Results
-    from pyrofit_exchange.macfp.asked import Asked
+    from pyrofit_exchange.macfp.asked import Submission
     from pyrofit_exchange.macfp.submit import submit
     from pyrofit_exchange.sets import parameter_set
 
@@ -96,7 +96,7 @@ def _submit(given: argparse.Namespace) -> None:
     chosen = parameter_set(study, results, given.set, given.study.parent)
     forms = (3, 4) if given.form == "both" else (int(given.form),)
     folder = given.out or results.root / "macfp"
-    asked = Asked(given.institute, given.material, forms, given.like)
+    asked = Submission(given.institute, given.material, forms, given.like)
     for line in submit(study, chosen, asked, folder):
         print(line)
     print(f"{folder}: set '{chosen.label}' of study '{study.name}'")

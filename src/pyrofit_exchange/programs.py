@@ -19,11 +19,11 @@ from pyrofit_exchange.fds.include import GAS, USUAL_HEAT_KJ_KG, gas_line
 from pyrofit_exchange.fds.layers import own_layers
 from pyrofit_exchange.fds.materials import Values
 from pyrofit_exchange.fds.namelists import comment_line, write_all
-from pyrofit_exchange.fds.predicted import Predicted, predict_slab
+from pyrofit_exchange.fds.predicted import PredictedByPyrofit, predict_slab
 from pyrofit_exchange.fds.remarks import Remark
 from pyrofit_exchange.gpyro.data import heated_data, slab_data
 from pyrofit_exchange.sets import ParameterSet
-from pyrofit_exchange.spyro import Curve, ignition, surface
+from pyrofit_exchange.spyro import ReferenceTest, ignition, scaling_lines
 from pyrofit_exchange.thermakin.components import component_file
 from pyrofit_exchange.thermakin.conditions import heated_conditions, slab_conditions
 
@@ -31,7 +31,7 @@ Said = dict[Remark, list[str]]
 COPPER = (8940.0, 380.0)
 
 
-def slabs_of(study: Study) -> dict[str, SlabExperiment]:
+def slabs_of_study(study: Study) -> dict[str, SlabExperiment]:
     """Return the slabs of a study by name."""
     return {n: e for n, e in study.experiments.items() if isinstance(e, SlabExperiment)}
 
@@ -58,7 +58,7 @@ def _add(said: Said, remarks: Iterable[Remark], name: str) -> None:
 def export_gpyro(study: Study, chosen: ParameterSet, folder: Path) -> list[str]:
     """Write ``.data`` files; return the inexact terms, one line each."""
     said: Said = {}
-    for name, slab in slabs_of(study).items():
+    for name, slab in slabs_of_study(study).items():
         predicted = predict_slab(slab, chosen.material, chosen.values, study.accuracy)
         data = slab_data(name, slab, chosen.material, chosen.values, predicted)
         write_text(folder / f"{name}.data", write_all(data.namelists))
@@ -75,7 +75,7 @@ def export_thermakin(study: Study, chosen: ParameterSet, folder: Path) -> list[s
     """Write a ``.cmp`` file and ``.cnd`` files; return the inexact terms, one line each."""
     said: Said = {}
     material, values = chosen.material, chosen.values
-    slabs = slabs_of(study)
+    slabs = slabs_of_study(study)
     predicted = {n: predict_slab(e, material, values, study.accuracy) for n, e in slabs.items()}
     length, gas_heat, foil, back = 0.0, 0.0, COPPER, 0.0
     for name, slab in list(slabs.items())[:1]:
@@ -118,7 +118,7 @@ def export_spyro(
     StudyError
         The study has no slab.
     """
-    slabs = slabs_of(study)
+    slabs = slabs_of_study(study)
     if not slabs:
         raise StudyError(f"study '{study.name}' has no slab; scaling pyrolysis needs one")
     simulated = {
@@ -135,7 +135,7 @@ def export_spyro(
             time, rate = found
         size = own_layers(slab.sample, chosen.material, chosen.values)[0].thickness_m
         flux = strongest(slab.front.flux_W_m2, chosen.values)
-        curves.append(Curve(name, flux, size, time, rate))
+        curves.append(ReferenceTest(name, flux, size, time, rate))
     if not curves:
         raise StudyError(
             f"study '{study.name}' measures no mass loss rate; take the simulated ones"
@@ -147,8 +147,8 @@ def export_spyro(
 def _spyro_text(
     study: Study,
     chosen: ParameterSet,
-    curves: list[Curve],
-    simulated: dict[str, Predicted],
+    curves: list[ReferenceTest],
+    simulated: dict[str, PredictedByPyrofit],
     measured: bool,
 ) -> str:
     """Return the file of scaling pyrolysis; the front's temperature at ignition is simulated."""
@@ -160,9 +160,9 @@ def _spyro_text(
     material, values = chosen.material, chosen.values
     burnt = [value_of(r.heat_of_combustion_J_kg, values) for r in material.reactions.values()]
     heat = max(burnt, default=0.0) or 1e3 * USUAL_HEAT_KJ_KG
-    slab = slabs_of(study)[curves[0].experiment]
+    slab = slabs_of_study(study)[curves[0].experiment]
     name, mean = study.name[:40].upper(), float(np.mean(lit))
-    lines = surface(name, curves, slab, material, values, mean, heat)
+    lines = scaling_lines(name, curves, slab, material, values, mean, heat)
     kind = "measured" if measured else f"simulated, set '{chosen.label}'"
     said = [
         f"study '{study.name}': scaling pyrolysis, FDS 6.8 and newer",

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from pyrofit.analysis.answer import answer_values, one_each
 from pyrofit.analysis.best_sets import published_sets
-from pyrofit.analysis.estimates import Estimated, estimated
+from pyrofit.analysis.estimates import Estimated, estimates_of
 from pyrofit.analysis.uses import ESTIMATES, PUBLISHED
 from pyrofit.config import Study, diagnosed_material, parameters_in
 from pyrofit.errors import DataError, StudyError, suggest
@@ -140,7 +140,7 @@ def _of_report(study: Study, results: Results, label: str) -> ParameterSet:
 def _notes(study: Study, results: Results, values: Mapping[str, float]) -> dict[str, str]:
     """Return the interval of each estimate and how well it is determined, in words."""
     try:
-        found = estimated(study, identification.read(study, results))
+        found = estimates_of(study, identification.read(study, results))
     except DataError:
         return {}  # the analysis has not run
     return {

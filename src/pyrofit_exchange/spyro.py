@@ -14,7 +14,7 @@ from pyrofit.model.material import Material
 from pyrofit.model.slab import SlabExperiment
 from pyrofit.solver.arrays import FloatArray
 from pyrofit_exchange.fds.layers import layer_keys, own_layers
-from pyrofit_exchange.fds.materials import Lines, Options, Values, write_materials
+from pyrofit_exchange.fds.materials import MaterialLines, Options, Values, write_materials
 from pyrofit_exchange.fds.namelists import Item, Namelist
 from pyrofit_exchange.fds.predicted import BURNT_KG_M2S
 from pyrofit_exchange.fds.properties import CELSIUS_K
@@ -25,7 +25,7 @@ MOST_CURVES = 10
 EVERY_S = 5.0
 
 
-class Curve(NamedTuple):
+class ReferenceTest(NamedTuple):
     """A reference test.
 
     Parameters
@@ -45,7 +45,7 @@ class Curve(NamedTuple):
     rate: FloatArray
 
 
-def ignition(curve: Curve) -> float:
+def ignition(curve: ReferenceTest) -> float:
     """Return the first time [s] at which the rate is 1 g/(m2 s).
 
     Raises
@@ -59,7 +59,7 @@ def ignition(curve: Curve) -> float:
     return float(curve.time_s[above[0]])
 
 
-def ramp(curve: Curve, name: str, heat_J_kg: float) -> list[Namelist]:
+def ramp(curve: ReferenceTest, name: str, heat_J_kg: float) -> list[Namelist]:
     """Return the heat release [kW/m2] over the time since ignition, means over 5 s."""
     since = curve.time_s - ignition(curve)
     edges = np.arange(0.0, float(since[-1]) + EVERY_S, EVERY_S)
@@ -73,9 +73,9 @@ def ramp(curve: Curve, name: str, heat_J_kg: float) -> list[Namelist]:
     return [Namelist("RAMP", {"ID": name, "T": t, "F": q}) for t, q in points]
 
 
-def surface(
+def scaling_lines(
     name: str,
-    curves: Sequence[Curve],
+    curves: Sequence[ReferenceTest],
     experiment: SlabExperiment,
     material: Material,
     values: Values,
@@ -106,7 +106,7 @@ def surface(
         raise FdsError(f"{len(curves)} reference curves; FDS takes 1 to {MOST_CURVES}")
     inert = material.model_copy(update={"reactions": {}})
     layer = own_layers(experiment.sample, material, values)[:1]
-    lines: Lines = write_materials(inert, values, list(layer[0].shares), Options(NEW))
+    lines: MaterialLines = write_materials(inert, values, list(layer[0].shares), Options(NEW))
     names = [f"Q_{n + 1}" for n in range(len(curves))]
     several = f"(1:{len(curves)})" if len(curves) > 1 else ""
     items: dict[str, Item | Sequence[Item]] = {

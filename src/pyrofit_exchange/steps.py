@@ -12,7 +12,7 @@ from pyrofit_exchange.fds.materials import Values, factor_with
 from pyrofit_exchange.fds.remarks import Remark
 
 
-class Step(NamedTuple):
+class StepReaction(NamedTuple):
     """A reaction of one product.
 
     Parameters
@@ -50,7 +50,7 @@ def left_out(material: Material, values: Values) -> list[Remark]:
     ]
 
 
-def steps_of(material: Material, values: Values, names: list[str], R: float) -> list[Step]:
+def steps_of(material: Material, values: Values, names: list[str], R: float) -> list[StepReaction]:
     """Return the steps of all reactions of the named components that run at all.
 
     Parameters
@@ -77,7 +77,7 @@ def steps_of(material: Material, values: Values, names: list[str], R: float) -> 
             for x in (reaction.E_J_mol, reaction.order, reaction.heat_of_reaction_J_kg)
         )
         found += [
-            Step(reaction.reactant, product, share * A, E, order, heat, share)
+            StepReaction(reaction.reactant, product, share * A, E, order, heat, share)
             for product, share in shares.items()
             if share > 1e-12
         ]

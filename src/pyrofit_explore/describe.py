@@ -15,14 +15,14 @@ from pyrofit.config.uses import parameters_in
 from pyrofit.effects import known_effects
 from pyrofit.quantities.units import ICE_POINT_K
 from pyrofit.solver.arrays import FloatArray
-from pyrofit_explore.model import Model, possible_effects
+from pyrofit_explore.model import ExploredModel, possible_effects
 
 MOST_POINTS = 300
 """Points of a signal that are drawn; all count in the numbers."""
 GROUPS = ("kinetics", "thermophysical properties", "apparatus")
 
 
-def describe(model: Model, bands: pd.DataFrame | None = None) -> dict[str, Any]:
+def described_study(model: ExploredModel, bands: pd.DataFrame | None = None) -> dict[str, Any]:
     """Return signals with their measured points, parameters with their groups, and effects.
 
     ``bands`` are those of a posterior, as its record has them.
@@ -39,7 +39,7 @@ def describe(model: Model, bands: pd.DataFrame | None = None) -> dict[str, Any]:
     }
 
 
-def middle(model: Model) -> dict[str, float]:
+def middle(model: ExploredModel) -> dict[str, float]:
     """Return the middle of the limits, and known and given values instead where there are any."""
     study, problem = model.study, model.problem
     centre = 0.5 * (problem.lower + problem.upper)
@@ -50,28 +50,28 @@ def middle(model: Model) -> dict[str, float]:
 
 
 @cache
-def drawn(size: int) -> NDArray[np.int64]:
+def drawn_points(size: int) -> NDArray[np.int64]:
     """Return the positions of the points that are drawn of a record of some size.
 
-    >>> drawn(3).tolist(), drawn(1000).size
+    >>> drawn_points(3).tolist(), drawn_points(1000).size
     ([0, 1, 2], 300)
     """
     return np.unique(np.linspace(0, size - 1, min(size, MOST_POINTS)).round().astype(int))
 
 
-def in_shown_units(model: Model, channel: int, curve: FloatArray) -> FloatArray:
+def in_shown_units(model: ExploredModel, channel: int, curve: FloatArray) -> FloatArray:
     """Return the drawn points of a curve in the unit in which its quantity is shown."""
     name, signal = model.signals[channel]
     shown = model.study.experiments[name].quantity(signal).shown
-    return np.asarray(shown.factor * curve[drawn(curve.size)] + shown.offset)
+    return np.asarray(shown.factor * curve[drawn_points(curve.size)] + shown.offset)
 
 
-def _signal(model: Model, channel: int, bands: pd.DataFrame | None) -> dict[str, Any]:
+def _signal(model: ExploredModel, channel: int, bands: pd.DataFrame | None) -> dict[str, Any]:
     name, signal = model.signals[channel]
     experiment = model.study.experiments[name]
     quantity = experiment.quantity(signal)
     target = model.problem.cost.terms[channel][1].target
-    at = drawn(target.time_s.size)
+    at = drawn_points(target.time_s.size)
     temperature = model.problem.temperature_K(channel)
     heated = quantity.against_temperature and temperature is not None
     x = temperature - ICE_POINT_K if heated and temperature is not None else target.time_s
@@ -92,7 +92,7 @@ def _signal(model: Model, channel: int, bands: pd.DataFrame | None) -> dict[str,
     }
 
 
-def _band(model: Model, channel: int, bands: pd.DataFrame) -> list[list[float]] | None:
+def _band(model: ExploredModel, channel: int, bands: pd.DataFrame) -> list[list[float]] | None:
     """Return lower and upper end of the band of the posterior at the drawn points."""
     name, signal = model.signals[channel]
     own = bands[(bands["experiment"] == name) & (bands["signal"] == signal)]
@@ -100,7 +100,7 @@ def _band(model: Model, channel: int, bands: pd.DataFrame) -> list[list[float]] 
         return None
     shown = model.study.experiments[name].quantity(signal).shown
     time = model.problem.cost.terms[channel][1].target.time_s
-    at = time[drawn(time.size)]
+    at = time[drawn_points(time.size)]
     ends = (np.interp(at, own["time_s"], own[end]) for end in ("low", "high"))
     return [_rounded(shown.factor * end + shown.offset) for end in ends]
 

@@ -24,7 +24,7 @@ Send = Callable[[Mapping[str, Any]], None]
 """Sends a message to the page; raises if it is gone, or has cancelled the fit."""
 
 
-def fit(session: Session, state: State, ticked: Collection[str], send: Send) -> None:
+def descend_and_tell(session: Session, state: State, ticked: Collection[str], send: Send) -> None:
     """Descend from a state over the fitted signals; send messages, and the best values so far.
 
     Raises

@@ -6,7 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
-from pyrofit.api.choices import Key, Place, places_of, used_by
+from pyrofit.api.choices import Key, Place, places_of_parameter, used_by
 from pyrofit.config import Study, TermSpec, calibration_channels, parameters_in
 from pyrofit.config.resolve import diagnosed_material
 from pyrofit.effects import known_effects
@@ -43,7 +43,7 @@ class Simulated:
 
 
 @dataclass(frozen=True, eq=False)
-class Model:
+class ExploredModel:
     """A study with effects, posed.
 
     Parameters
@@ -73,7 +73,7 @@ class Model:
     @cached_property
     def places(self) -> list[Place]:
         """The places of the description at which a parameter stands."""
-        return places_of(self.study)
+        return places_of_parameter(self.study)
 
     @cached_property
     def _uses(self) -> dict[str, list[str]]:
@@ -115,10 +115,10 @@ class Model:
         return self.problem.cost.terms[channel][1].target.value
 
 
-def parameters_of(effects: Collection[str]) -> dict[str, Parameter]:
+def effect_parameters(effects: Collection[str]) -> dict[str, Parameter]:
     """Return the parameters of effects: their strengths, and the numbers of their form.
 
-    >>> list(parameters_of(["flux_spread"]))
+    >>> list(effect_parameters(["flux_spread"]))
     ['flux_spread_spread']
     """
     return {
@@ -153,7 +153,7 @@ def switched(study: Study, effects: Collection[str]) -> Study:
         update={
             "material": material,
             "experiments": experiments,
-            "parameters": {**study.parameters, **parameters_of(effects)},
+            "parameters": {**study.parameters, **effect_parameters(effects)},
             "with_effects": {**study.with_effects, **chosen},
         }
     )
@@ -171,7 +171,9 @@ def possible_effects(study: Study) -> list[str]:
     return found
 
 
-def model_of(study: Study, measurements: Measurements, effects: Collection[str] = ()) -> Model:
+def pose_model(
+    study: Study, measurements: Measurements, effects: Collection[str] = ()
+) -> ExploredModel:
     """Pose a study with effects: all its signals and all terms of its costs in one problem.
 
     Raises
@@ -191,7 +193,7 @@ def model_of(study: Study, measurements: Measurements, effects: Collection[str] 
         terms += of_cost
     asked = of_diagnosis(study, terms, free_parameters(study))
     problem = pose(study, asked, measurements, study.fixed_values())
-    return Model(study, problem, tuple(keys), len(set(fitted)), costs)
+    return ExploredModel(study, problem, tuple(keys), len(set(fitted)), costs)
 
 
 def free_parameters(study: Study) -> list[str]:

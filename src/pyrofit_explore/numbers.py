@@ -7,11 +7,13 @@ import numpy as np
 
 from pyrofit.cost.distances import root_mean_square
 from pyrofit.numerics import linear
-from pyrofit_explore.model import Model, Simulated
+from pyrofit_explore.model import ExploredModel, Simulated
 from pyrofit_explore.noise import Noise
 
 
-def numbers(model: Model, simulated: Simulated, noise: Noise | None) -> dict[str, Any]:
+def numbers_of_set(
+    model: ExploredModel, simulated: Simulated, noise: Noise | None
+) -> dict[str, Any]:
     """Return the numbers of a set; held-out signals count in none of them.
 
     ``signals`` has the root mean square of simulated less measured values in the unit shown, and
@@ -41,7 +43,7 @@ def numbers(model: Model, simulated: Simulated, noise: Noise | None) -> dict[str
     return {"signals": signals, "mass": mass, "costs": _costs(model, simulated)}
 
 
-def _costs(model: Model, simulated: Simulated) -> Mapping[str, float | None]:
+def _costs(model: ExploredModel, simulated: Simulated) -> Mapping[str, float | None]:
     found = {}
     for name, places in model.costs.items():
         terms = [(model.problem.cost.terms[i], simulated.models[i]) for i in places]

@@ -6,22 +6,22 @@ from functools import cached_property
 
 from pyrofit.errors import DataError, StudyError, suggest
 from pyrofit.model.slab import SlabExperiment
-from pyrofit_compare.published import Published, material_in, published, shown_by
-from pyrofit_explore.model import Model, Simulated
+from pyrofit_compare.published import PublishedSet, material_in, published, shown_by
+from pyrofit_explore.model import ExploredModel, Simulated
 
 
 class PublishedSets:
     """The parameter sets of the MaCFP data base, read when they are first asked for."""
 
     @cached_property
-    def sets(self) -> Mapping[str, Published]:
+    def sets(self) -> Mapping[str, PublishedSet]:
         """The sets by name; none where the data base is not on this machine."""
         try:
             return published()[0]
         except DataError:
             return {}
 
-    def simulate(self, model: Model, name: str, values: Mapping[str, float]) -> Simulated:
+    def simulate(self, model: ExploredModel, name: str, values: Mapping[str, float]) -> Simulated:
         """Return the curves of a published material in the apparatus of a study.
 
         Parameters

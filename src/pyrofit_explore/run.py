@@ -15,12 +15,12 @@ from pyrofit.api.studies import Source, read_study
 from pyrofit.config import Study
 from pyrofit.config.resolve import diagnosed_parameters
 from pyrofit.errors import StudyError
-from pyrofit_explore.fit import Send, fit
+from pyrofit_explore.fit import Send, descend_and_tell
 from pyrofit_explore.published import PublishedSets
-from pyrofit_explore.save import save
+from pyrofit_explore.save import save_state
 from pyrofit_explore.server import Server, in_background
 from pyrofit_explore.session import Session, packed, session_of, stacked, state_of
-from pyrofit_explore.taken import taken
+from pyrofit_explore.taken import what_can_be_taken
 
 Given = Mapping[str, Any]
 
@@ -99,7 +99,7 @@ class Explorer:
         names = session.base.problem.names
         estimate = [name for name in names if name in ticked]
         published = {} if session.study.is_synthetic else self._published.sets
-        starts = {n: taken(session.base, one)._asdict() for n, one in published.items()}
+        starts = {n: what_can_be_taken(session.base, one)._asdict() for n, one in published.items()}
         told = session.description()
         sets = {**self._values, **told["sets"]}
         found = {"sets": sets, "estimate": estimate, "published": list(published)}
@@ -128,11 +128,11 @@ class Explorer:
         return {"curves": packed(stacked(model, simulated))}
 
     def _fit(self, given: Given, send: Send) -> None:
-        fit(self.session, state_of(given), _names(given), send)
+        descend_and_tell(self.session, state_of(given), _names(given), send)
 
     def _save(self, given: Given) -> Given:
         name = str(given.get("name", ""))
-        study, values = save(self.session, state_of(given), _names(given), name, Path())
+        study, values = save_state(self.session, state_of(given), _names(given), name, Path())
         lines = [
             f"{study}: study, {values}: set of values.",
             f"Run it: pyrofit run {study}",

@@ -16,7 +16,7 @@ from pyrofit_explore.session import Session, State
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,60}")
 
 
-def save(
+def save_state(
     session: Session, state: State, ticked: Collection[str], name: str, folder: Path
 ) -> list[Path]:
     """Write ``<name>.yaml`` and ``<name>.json``; return their paths.

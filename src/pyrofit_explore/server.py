@@ -115,7 +115,7 @@ class _Handler(BaseHTTPRequestHandler):
         try:
             answer = act(_given(body))
         except Exception as error:
-            answer = {"error": said(error)}
+            answer = {"error": message_of(error)}
         self._send(HTTPStatus.OK, _json(answer), "application/json")
 
     def _stream(self, act: Callable[[Given, Send], None], body: bytes) -> None:
@@ -135,7 +135,7 @@ class _Handler(BaseHTTPRequestHandler):
         except ConnectionError:
             raise
         except Exception as error:
-            send({"error": said(error)})
+            send({"error": message_of(error)})
 
     def _is_own(self, token: str) -> bool:
         """Tell whether a request has the token, and comes from a page of this server."""
@@ -164,7 +164,7 @@ class _Handler(BaseHTTPRequestHandler):
         """Say nothing of requests."""
 
 
-def said(error: Exception) -> str:
+def message_of(error: Exception) -> str:
     """Return the message of an error for the page."""
     return str(error) if isinstance(error, PyrofitError) else f"{type(error).__name__}: {error}"
 

@@ -19,10 +19,10 @@ from pyrofit.results.files import Results
 from pyrofit.stages.measurements import computed
 from pyrofit.stages.reading import read_all
 from pyrofit.steps.posterior import record as posterior
-from pyrofit_explore.describe import describe, in_shown_units, middle
-from pyrofit_explore.model import Model, Simulated, model_of
+from pyrofit_explore.describe import described_study, in_shown_units, middle
+from pyrofit_explore.model import ExploredModel, Simulated, pose_model
 from pyrofit_explore.noise import Noise, PendingNoise
-from pyrofit_explore.numbers import numbers
+from pyrofit_explore.numbers import numbers_of_set
 from pyrofit_explore.sets import named_sets
 
 MOST_MODELS = 16
@@ -83,12 +83,12 @@ class Session:
 
     study: Study
     measurements: Measurements
-    base: Model
+    base: ExploredModel
     sets: Mapping[str, Mapping[str, float]]
     remarks: list[str]
     bands: pd.DataFrame | None = None
     pending: PendingNoise | None = None
-    _models: dict[tuple[str, ...], Model] = field(default_factory=dict)
+    _models: dict[tuple[str, ...], ExploredModel] = field(default_factory=dict)
     _lock: threading.Lock = field(default_factory=threading.Lock)
 
     @property
@@ -99,25 +99,25 @@ class Session:
     def description(self) -> dict[str, Any]:
         """Return the description of the study, which the page asks for once."""
         return {
-            **describe(self.base, self.bands),
+            **described_study(self.base, self.bands),
             "sets": {label: dict(values) for label, values in self.sets.items()},
             "remarks": self.remarks,
         }
 
-    def model(self, effects: tuple[str, ...]) -> Model:
+    def model(self, effects: tuple[str, ...]) -> ExploredModel:
         """Return the study with effects; those used last are kept."""
         if not effects:
             return self.base
         with self._lock:
             model = self._models.pop(effects, None)
             if model is None:
-                model = model_of(self.study, self.measurements, effects)
+                model = pose_model(self.study, self.measurements, effects)
             self._models[effects] = model
             while len(self._models) > MOST_MODELS:
                 del self._models[next(iter(self._models))]
         return model
 
-    def values(self, model: Model, state: State) -> dict[str, float]:
+    def values(self, model: ExploredModel, state: State) -> dict[str, float]:
         """Return the SI values of a state, those that it leaves out as they start.
 
         Raises
@@ -131,7 +131,7 @@ class Session:
                 raise StudyError(f"values: unknown parameter '{name}'. {known}")
         return middle(model) | si_values(model.study, state.values, model.places)
 
-    def simulate(self, state: State) -> tuple[Model, Simulated]:
+    def simulate(self, state: State) -> tuple[ExploredModel, Simulated]:
         """Return the model with the effects of a state, and its curves."""
         model = self.model(state.effects)
         return model, model.simulate(self.values(model, state))
@@ -145,7 +145,7 @@ class Session:
         model, simulated = self.simulate(state)
         return {
             "curves": packed(stacked(model, simulated)),
-            "numbers": numbers(model, simulated, self.noise),
+            "numbers": numbers_of_set(model, simulated, self.noise),
             "noise": self.pending.error if self.pending else "",
             "failed": simulated.failed,
         }
@@ -156,7 +156,7 @@ class Session:
             self.pending.close()
 
 
-def stacked(model: Model, simulated: Simulated) -> np.ndarray:
+def stacked(model: ExploredModel, simulated: Simulated) -> np.ndarray:
     """Return the drawn points of all signals one after the other, in the units shown."""
     channels: Iterable[int] = range(len(model.signals))
     return np.concatenate([in_shown_units(model, i, simulated.models[i]) for i in channels])
@@ -199,8 +199,8 @@ def session_of(
         measurements |= computed(read, fast=True)
     root = Results(results or Path("results") / read.name)
     sets, remarks = named_sets(read, root, given, beside)
-    base = model_of(read, measurements)
+    base = pose_model(read, measurements)
     pending = PendingNoise(read, measurements) if noise else None
     there = root.of_step("posterior", posterior.BANDS).exists()
-    bands = posterior.bands(root) if there else None
+    bands = posterior.read_predicted_bands(root) if there else None
     return Session(read, measurements, base, sets, remarks, bands, pending)

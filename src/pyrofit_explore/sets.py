@@ -55,10 +55,10 @@ def named_sets(study: Study, results: Results, given: str, beside: Path) -> tupl
 
 def _kinetics(study: Study) -> Named:
     sets = study.kinetics.sets if study.kinetics else ()
-    return {name: in_units(study, kinetics_of(study, name)) for name in sets}
+    return {name: in_units(study, published_values(study, name)) for name in sets}
 
 
-def kinetics_of(study: Study, name: str) -> dict[str, float]:
+def published_values(study: Study, name: str) -> dict[str, float]:
     """Return published kinetics as values of the parameters that describe the reactions.
 
     Parameters
@@ -74,7 +74,7 @@ def kinetics_of(study: Study, name: str) -> dict[str, float]:
     Examples
     --------
     >>> import pyrofit as pf
-    >>> round(kinetics_of(pf.read_study("config/paper.yaml"), "Table 3")["T_B"], 1)
+    >>> round(published_values(pf.read_study("config/paper.yaml"), "Table 3")["T_B"], 1)
     597.0
     """
     assert study.kinetics is not None

@@ -13,8 +13,8 @@ from pyrofit.api.choices import in_units
 from pyrofit.errors import StudyError, suggest
 from pyrofit.results.files import write_text
 from pyrofit.solver.arrays import FloatArray
-from pyrofit_explore.describe import describe, drawn, in_shown_units, middle
-from pyrofit_explore.model import Model
+from pyrofit_explore.describe import described_study, drawn_points, in_shown_units, middle
+from pyrofit_explore.model import ExploredModel
 from pyrofit_explore.page import page
 from pyrofit_explore.session import Session
 
@@ -51,19 +51,21 @@ def write_static(session: Session, sliders: Sequence[str], label: str, path: Pat
     """
     model = session.base
     values = _start(session, label)
-    names = [_known(model, name) for name in sliders] or strongest(model, values)
+    names = [_known(model, name) for name in sliders] or strongest_pair(model, values)
     if len(names) > 2 or len(set(names)) < len(names):
         raise StudyError(f"sliders: {', '.join(names)}; give one or two different parameters")
-    text = page(content(session, names, values))
+    text = page(static_content(session, names, values))
     if len(text.encode()) > MOST_BYTES:
         raise StudyError(f"{path}: the page exceeds 5 MB; give one slider by --sliders")
     write_text(path, text)
 
 
-def content(session: Session, names: Sequence[str], values: Mapping[str, float]) -> dict[str, Any]:
+def static_content(
+    session: Session, names: Sequence[str], values: Mapping[str, float]
+) -> dict[str, Any]:
     """Return the content of the page: the description, and curves over a grid of the sliders."""
     model, study = session.base, session.study
-    told = describe(model)
+    told = described_study(model)
     shown = [p for p in told["parameters"] if p["name"] in names]
     told["parameters"] = sorted(shown, key=lambda p: names.index(p["name"]))
     told["middle"] = {n: v for n, v in in_units(study, values).items() if n in names}
@@ -77,7 +79,7 @@ def content(session: Session, names: Sequence[str], values: Mapping[str, float])
     return {"study": told, "grid": _grid(model, names, values)}
 
 
-def strongest(model: Model, values: Mapping[str, float]) -> list[str]:
+def strongest_pair(model: ExploredModel, values: Mapping[str, float]) -> list[str]:
     """Return the two parameters that move the fitted signals most, from limit to limit.
 
     A move is the root mean square of the change over the range of the measured values, summed over
@@ -99,8 +101,10 @@ def strongest(model: Model, values: Mapping[str, float]) -> list[str]:
     return [problem.names[i] for i in order[:2]]
 
 
-def _grid(model: Model, names: Sequence[str], values: Mapping[str, float]) -> dict[str, Any]:
-    points = sum(drawn(model.target(i).size).size for i in range(len(model.signals)))
+def _grid(
+    model: ExploredModel, names: Sequence[str], values: Mapping[str, float]
+) -> dict[str, Any]:
+    points = sum(drawn_points(model.target(i).size).size for i in range(len(model.signals)))
     most = _FOR_CURVES * 3 // 4 // (2 * points)
     steps = min(_MOST_STEPS[len(names)], most if len(names) == 1 else math.isqrt(most))
     if steps < _FEWEST_STEPS:
@@ -147,7 +151,7 @@ def _start(session: Session, label: str) -> dict[str, float]:
     return start | {n: v * factors[n] for n, v in given.items()}
 
 
-def _known(model: Model, name: str) -> str:
+def _known(model: ExploredModel, name: str) -> str:
     if name not in model.problem.names:
         raise StudyError(
             f"sliders: '{name}' is no parameter with limits. {suggest(name, model.problem.names)}"

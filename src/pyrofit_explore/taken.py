@@ -10,10 +10,10 @@ from pyrofit.config.uses import HEATS, parameters_in
 from pyrofit.errors import DataError
 from pyrofit.model.base import named_by, numbers
 from pyrofit.model.material import Material, Reaction
-from pyrofit_compare.published import Published
+from pyrofit_compare.published import PublishedSet
 from pyrofit_exchange.macfp.forms import Nothing
 from pyrofit_exchange.macfp.material import has_heat, material_of
-from pyrofit_explore.model import Model
+from pyrofit_explore.model import ExploredModel
 from pyrofit_explore.sets import reference_temperature
 
 PROPERTIES = (
@@ -39,7 +39,7 @@ class Taken(NamedTuple):
     said: str
 
 
-def taken(model: Model, one: Published) -> Taken:
+def what_can_be_taken(model: ExploredModel, one: PublishedSet) -> Taken:
     """Return what a study can take from a published set.
 
     A parameter is taken that stands by itself for a number of the set, clipped to its limits.
@@ -86,7 +86,7 @@ class _Match:
 
     own: Material
     given: Material
-    one: Published
+    one: PublishedSet
 
     @cached_property
     def scheme(self) -> tuple[dict[str, str], dict[str, str], str]:

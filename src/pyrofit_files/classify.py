@@ -8,22 +8,22 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.data.convert import to_si
-from pyrofit.data.csvfile import Table, read_table
+from pyrofit.data.csvfile import FileTable, read_table
 from pyrofit.data.spec import SeriesSpec
 from pyrofit.errors import DataError
 from pyrofit.experiments import KINDS
 from pyrofit.experiments.heated.from_files import recorded_rate
-from pyrofit.new_study.columns import Found
+from pyrofit.new_study.columns import FoundColumn
 from pyrofit_files.content import best_kind
-from pyrofit_files.examined import Examined, Signal
+from pyrofit_files.examined import Examined, FileSignal
 from pyrofit_files.names import Label
 from pyrofit_files.properties import property_signals
-from pyrofit_files.readme import Facts
+from pyrofit_files.readme import StatedFacts
 
 _TOTAL = "total"
 
 
-def examine(path: Path, label: Label, facts: Facts) -> Examined:
+def examine_file(path: Path, label: Label, facts: StatedFacts) -> Examined:
     """Read a file as far as possible; report each obstacle as a finding.
 
     The columns tell the kind of experiment; the name tells it among kinds of the same sort.
@@ -66,7 +66,7 @@ def _with_facts(seen: Examined) -> Label:
     )
 
 
-def _named(table: Table) -> Table:
+def _named(table: FileTable) -> FileTable:
     """Return the table with units out of the middle of names, and one total among several parts."""
     totals = [n for n in table.columns if n.casefold().startswith(_TOTAL)]
     parts = [n for n in table.columns if "reversing" in n.casefold()]
@@ -84,7 +84,7 @@ def _contradicts(named: str, kind: str) -> bool:
     return named in KINDS and KINDS[named].stage != KINDS[kind].stage
 
 
-def _take(seen: Examined, found: Found) -> None:
+def _take(seen: Examined, found: FoundColumn) -> None:
     """Add a signal to an examined file, or say why it cannot be read."""
     table = seen.table
     assert table is not None
@@ -118,7 +118,7 @@ def _take(seen: Examined, found: Found) -> None:
     x, y, *T = (array[known] for array in arrays)
     unit = table.units[header] or ""
     heated = T[0] if T else None
-    seen.signals[found.signal] = Signal(found.quantity, header, unit, scale, x, y, heated)
+    seen.signals[found.signal] = FileSignal(found.quantity, header, unit, scale, x, y, heated)
 
 
 def _without_path(error: DataError, path: Path) -> str:
@@ -126,7 +126,7 @@ def _without_path(error: DataError, path: Path) -> str:
     return str(error).removeprefix(f"{path}").lstrip(",: ")
 
 
-def _without_numbers(table: Table, names: Iterable[str]) -> str:
+def _without_numbers(table: FileTable, names: Iterable[str]) -> str:
     """Return the fault of the first column that holds text alone; nothing where there is none."""
     for name in names:
         if np.isnan(table.columns[name]).all() and name in table.faults:

@@ -45,14 +45,14 @@ def _doctor(given: argparse.Namespace) -> None:
     import json
 
     from pyrofit_files.form import check_form, form_of
-    from pyrofit_files.report import as_json, examine_folder, lines_of, summary
+    from pyrofit_files.report import counts, examine_folder, report_as_json, report_lines
 
     files = examine_folder(given.folder)
-    lines = summary(files) if given.short else lines_of(files, given.folder, given.notes)
+    lines = counts(files) if given.short else report_lines(files, given.folder, given.notes)
     for line in lines:
         print(line)
     if given.json is not None:
-        text = json.dumps(as_json(files, given.folder), indent=1, ensure_ascii=False)
+        text = json.dumps(report_as_json(files, given.folder), indent=1, ensure_ascii=False)
         given.json.write_text(text + "\n", encoding="utf-8")
     if given.form is not None:
         given.form.write_text(form_of(files, given.folder), encoding="utf-8")
@@ -62,9 +62,9 @@ def _doctor(given: argparse.Namespace) -> None:
 
 def _look(given: argparse.Namespace) -> None:
     from pyrofit_files.look_picture import write
-    from pyrofit_files.looked import look
+    from pyrofit_files.looked import look_at
 
-    looked = look(given.files)
+    looked = look_at(given.files)
     for line in looked.lines():
         print(line)
     write(looked, given.output)

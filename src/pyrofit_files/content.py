@@ -4,9 +4,9 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from pyrofit.data.csvfile import FloatArray, Table
+from pyrofit.data.csvfile import FileTable, FloatArray
 from pyrofit.experiments import KINDS, OF_FILES
-from pyrofit.new_study.columns import Found, Recognised, recognise
+from pyrofit.new_study.columns import FoundColumn, Recognised, recognise
 from pyrofit.numerics import linear
 from pyrofit.quantities.units import SCALES, unit_key
 
@@ -18,7 +18,7 @@ _ORDER = "tga", "mcc", "dsc", "gasification", "cone"
 """Kinds from the one with the fewest columns on: of two that fit, the first is taken."""
 
 
-def best_kind(table: Table, kind: str = "") -> tuple[str, Recognised]:
+def best_kind(table: FileTable, kind: str = "") -> tuple[str, Recognised]:
     """Return the kind of experiment that explains most columns, and its signals.
 
     Of kinds that explain as many, the size of the mass and the course of the temperature tell
@@ -39,7 +39,7 @@ def best_kind(table: Table, kind: str = "") -> tuple[str, Recognised]:
     >>> t = np.arange(0.0, 60.0)
     >>> columns = {"t": t, "T": 30.0 + 10.0 * t, "m": 9.0 - 0.1 * t}
     >>> units = {"t": "min", "T": "C", "m": "mg"}
-    >>> best_kind(Table(Path("BOARD_10.csv"), columns, units, 2))[0]
+    >>> best_kind(FileTable(Path("BOARD_10.csv"), columns, units, 2))[0]
     'tga'
     """
     found = {name: recognise(table, name) for name in sorted(OF_FILES, key=_rank)}
@@ -64,7 +64,7 @@ def _rank(name: str) -> int:
     return _ORDER.index(name) if name in _ORDER else len(_ORDER)
 
 
-def _readable(recognised: Recognised) -> list[Found]:
+def _readable(recognised: Recognised) -> list[FoundColumn]:
     """Return signals whose columns are known; a record against temperature may lack the times."""
     return [
         f
@@ -80,7 +80,7 @@ def _used(recognised: Recognised) -> int:
 
 
 def _sort_of_mass(
-    table: Table, tried: Iterable[Recognised], heated: list[str], slabs: list[str]
+    table: FileTable, tried: Iterable[Recognised], heated: list[str], slabs: list[str]
 ) -> list[str]:
     """Return the kinds of samples as heavy as that of a table; all where it tells no mass.
 
@@ -96,7 +96,7 @@ def _sort_of_mass(
     return [*heated, *slabs]
 
 
-def _in_furnace(table: Table, recognised: Recognised) -> bool:
+def _in_furnace(table: FileTable, recognised: Recognised) -> bool:
     """Tell whether a record is one of a mass fraction, or of a programmed temperature."""
     for found in _readable(recognised):
         if found.scale == "fraction":

@@ -8,16 +8,16 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from pyrofit.data.csvfile import Table
+from pyrofit.data.csvfile import FileTable
 from pyrofit_files.names import Label
-from pyrofit_files.readme import Facts
+from pyrofit_files.readme import StatedFacts
 
 FloatArray = NDArray[np.float64]
 Weight = Literal["fault", "doubt", "note"]
 
 
 @dataclass(frozen=True)
-class Finding:
+class FileFinding:
     """A fault of a file, or an apparent one.
 
     Parameters
@@ -39,7 +39,7 @@ class Finding:
 
 
 @dataclass(frozen=True, eq=False)
-class Signal:
+class FileSignal:
     """A column of a file in SI units.
 
     Parameters
@@ -88,12 +88,12 @@ class Examined:
 
     path: Path
     label: Label
-    facts: Facts
+    facts: StatedFacts
     kind: str = ""
-    table: Table | None = None
-    signals: dict[str, Signal] = field(default_factory=dict)
+    table: FileTable | None = None
+    signals: dict[str, FileSignal] = field(default_factory=dict)
     left: Mapping[str, str] = field(default_factory=dict)
-    findings: list[Finding] = field(default_factory=list)
+    findings: list[FileFinding] = field(default_factory=list)
 
     @property
     def classified(self) -> bool:
@@ -102,4 +102,4 @@ class Examined:
 
     def say(self, check: str, weight: Weight, text: str, column: str = "") -> None:
         """Add a finding."""
-        self.findings.append(Finding(check, weight, text, column))
+        self.findings.append(FileFinding(check, weight, text, column))

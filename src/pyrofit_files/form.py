@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from pyrofit.errors import DataError
-from pyrofit_files.examined import Examined, Finding
+from pyrofit_files.examined import Examined, FileFinding
 
 _HEATED = ("tga", "dsc", "mcc")
 
@@ -103,7 +103,7 @@ def _findings(files: Sequence[Examined], folder: Path, weight: str, last: str) -
         yield _row(*cells, *([""] if last else []))
 
 
-def _of_weight(files: Sequence[Examined], weight: str) -> Iterator[tuple[Examined, Finding]]:
+def _of_weight(files: Sequence[Examined], weight: str) -> Iterator[tuple[Examined, FileFinding]]:
     return ((seen, f) for seen in files for f in seen.findings if f.weight == weight)
 
 

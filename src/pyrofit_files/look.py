@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 from pyrofit.show import style
 from pyrofit.show.text import several
 from pyrofit_files import look_picture as picture
-from pyrofit_files.looked import Looked
-from pyrofit_files.looked import look as look_at
+from pyrofit_files.looked import Looked, look_at
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -50,7 +49,7 @@ class Look:
             Nothing is recognised in the files.
         """
         with style.style():
-            return picture.draw(self.looked)
+            return picture.draw_look(self.looked)
 
     def write(self, path: str | Path) -> None:
         """Write the figure as PNG or SVG, or as HTML with the lines.

@@ -12,7 +12,7 @@ from pyrofit.quantities.units import ICE_POINT_K
 from pyrofit.results.files import write_bytes
 from pyrofit.show import style
 from pyrofit.show.drawn import Axes, Canvas
-from pyrofit_files.looked import Looked, Series, abscissa, derivative
+from pyrofit_files.looked import Looked, Series, abscissa_values, derivative
 
 ENDINGS = (".png", ".svg", ".html")
 LONGEST, OF_REPEAT = 40, 14
@@ -30,7 +30,7 @@ OF_SAMPLE = {
 """Units of values of a whole sample: a study gives its area or mass."""
 
 
-def draw(looked: Looked) -> Canvas:
+def draw_look(looked: Looked) -> Canvas:
     """Draw a panel for each quantity of each test; beside that of a mass, its derivative.
 
     Repeats have different colours and dashes. Masses come first, so that each stands in one row
@@ -58,7 +58,7 @@ def _panel(ax: Axes, test: Series, is_rate: bool) -> None:
     against = quantity is not None and quantity.against_temperature
     unit = _shown(test)
     for i, (name, signal) in enumerate(test.records):
-        at, values = abscissa(test, signal), test.values(signal)
+        at, values = abscissa_values(test, signal), test.values(signal)
         if is_rate:
             at, values = derivative(at, values)
         values = unit.factor * values + (0.0 if is_rate else unit.offset)
@@ -124,7 +124,7 @@ def write(looked: Looked, path: Path) -> None:
     if ending not in ENDINGS:
         raise DataError(f"{path}: give a name that ends with {', '.join(ENDINGS)}")
     with style.style():
-        canvas, content = draw(looked), io.BytesIO()
+        canvas, content = draw_look(looked), io.BytesIO()
         canvas.savefig(content, format="svg" if ending == ".svg" else "png")
     made = content.getvalue()
     write_bytes(path, made if ending != ".html" else _page(looked, made).encode())

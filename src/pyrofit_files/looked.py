@@ -14,10 +14,10 @@ from pyrofit.quantities import known_quantities
 from pyrofit.quantities.base import Quantity
 from pyrofit.quantities.units import PER_START
 from pyrofit_files.checks import run_checks
-from pyrofit_files.classify import examine
-from pyrofit_files.examined import Examined, FloatArray, Signal
+from pyrofit_files.classify import examine_file
+from pyrofit_files.examined import Examined, FileSignal, FloatArray
 from pyrofit_files.names import label_of
-from pyrofit_files.readme import facts_of, read_readme
+from pyrofit_files.readme import read_readme, stated_facts
 
 FIRST = 5
 """Points whose median is the initial value."""
@@ -44,7 +44,7 @@ class Series:
     name: str
     kind: str
     quantity: Quantity | None
-    records: tuple[tuple[str, Signal], ...]
+    records: tuple[tuple[str, FileSignal], ...]
 
     @property
     def frames(self) -> list[pd.DataFrame]:
@@ -66,7 +66,7 @@ class Series:
         relative = of is not None and of.scales[0] == PER_START.get(scale)
         return PER_START[scale] if relative else scale
 
-    def values(self, signal: Signal) -> FloatArray:
+    def values(self, signal: FileSignal) -> FloatArray:
         """Return values of a record in SI units; masses of a heated sample over the initial one."""
         if self.scale == signal.scale:
             return signal.y
@@ -119,13 +119,13 @@ class Looked:
             yield from (f"  {line}" for line in test.disagreements)
 
 
-def _words(signal: Signal) -> str:
+def _words(signal: FileSignal) -> str:
     quantity = known_quantities().get(signal.quantity)
     title = quantity.title if quantity else signal.quantity.replace("_", " ")
     return f"{title} from '{signal.header}' [{signal.unit or 'no unit'}], {signal.y.size} points"
 
 
-def look(files: Iterable[Path]) -> Looked:
+def look_at(files: Iterable[Path]) -> Looked:
     """Return measured files as they are understood.
 
     Parameters
@@ -144,7 +144,7 @@ def look(files: Iterable[Path]) -> Looked:
     examined = []
     for path in paths:
         label = label_of(path.stem, path.parent.name)
-        examined.append(examine(path, label, facts_of(label, read_readme(path.parent))))
+        examined.append(examine_file(path, label, stated_facts(label, read_readme(path.parent))))
     run_checks(examined)
     return Looked(examined, list(_tests(examined)))
 
@@ -160,7 +160,7 @@ def _files(given: Path) -> list[Path]:
 
 
 def _tests(files: Iterable[Examined]) -> Iterator[Series]:
-    groups: dict[tuple[str, str, str], list[tuple[str, Signal]]] = {}
+    groups: dict[tuple[str, str, str], list[tuple[str, FileSignal]]] = {}
     for seen in files:
         for name, signal in seen.signals.items():
             key = seen.kind, root_of(seen.path.stem), f"{name} {signal.scale}"
@@ -170,7 +170,7 @@ def _tests(files: Iterable[Examined]) -> Iterator[Series]:
         yield Series(name, kind, known_quantities().get(records[0][1].quantity), tuple(records))
 
 
-def abscissa(test: Series, signal: Signal) -> FloatArray:
+def abscissa_values(test: Series, signal: FileSignal) -> FloatArray:
     """Return the temperature [K] of a record against it, else its time [s]."""
     against = test.quantity is not None and test.quantity.against_temperature
     return signal.temperature_K if against and signal.temperature_K is not None else signal.x

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from pyrofit.data.csvfile import Table
+from pyrofit.data.csvfile import FileTable
 from pyrofit.quantities.units import ICE_POINT_K, header_key, unit_key
-from pyrofit_files.examined import Signal
+from pyrofit_files.examined import FileSignal
 
 _PER_METRE = {"cm-1": 100.0, "1/cm": 100.0, "/cm": 100.0}
 _DIFFUSIVITY = {"mm2/s": 1e-6, "m2/s": 1.0, "cm2/s": 1e-4}
@@ -12,7 +12,7 @@ _TEMPERATURE = {"k": 0.0, "degc": ICE_POINT_K, "c": ICE_POINT_K, "°c": ICE_POIN
 _FRACTION = {"-": 1.0, "1": 1.0, "%": 0.01}
 
 
-def property_signals(table: Table) -> tuple[str, dict[str, Signal]]:
+def property_signals(table: FileTable) -> tuple[str, dict[str, FileSignal]]:
     """Return kind and signals of a table of a property; nothing where it is none.
 
     Known are a reflectivity against wavenumber and a thermal diffusivity against temperature.
@@ -31,7 +31,7 @@ def property_signals(table: Table) -> tuple[str, dict[str, Signal]]:
     return "", {}
 
 
-def _signal(table: Table, kind: str, x: str, y: str) -> Signal | None:
+def _signal(table: FileTable, kind: str, x: str, y: str) -> FileSignal | None:
     units = {name: unit_key(table.units[name] or "") for name in (x, y)}
     if kind == "reflectivity":
         factor, scale = _PER_METRE.get(units[x]), _FRACTION.get(units[y])
@@ -44,4 +44,4 @@ def _signal(table: Table, kind: str, x: str, y: str) -> Signal | None:
     values = table.columns[x] * factor + offset, table.columns[y] * scale
     known = np.isfinite(values).all(axis=0)
     unit = table.units[y] or ""
-    return Signal(kind, y, unit, kind, values[0][known], values[1][known])
+    return FileSignal(kind, y, unit, kind, values[0][known], values[1][known])

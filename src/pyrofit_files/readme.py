@@ -35,7 +35,7 @@ _NUMBER = re.compile(r"\d+(\.\d+)?")
 
 
 @dataclass(frozen=True)
-class Facts:
+class StatedFacts:
     """Facts of a test that come from outside its file; None where unknown.
 
     Parameters
@@ -52,14 +52,14 @@ class Facts:
     area_m2: float | None = None
 
 
-def read_readme(folder: Path) -> dict[Label, Facts]:
+def read_readme(folder: Path) -> dict[Label, StatedFacts]:
     """Return the facts of a folder's README by test; those of all tests under an empty name."""
     paths = sorted(p for p in folder.iterdir() if p.name.casefold() == "readme.md")
     if not paths:
         return {}
     text = paths[0].read_bytes().decode("utf-8", errors="replace")
     areas = {_area(m) for m in _AREA.finditer(text)}
-    common = Facts(area_m2=areas.pop() if len(areas) == 1 else None)
+    common = StatedFacts(area_m2=areas.pop() if len(areas) == 1 else None)
     facts = {Label(""): common}
     own = common
     heading: dict[str, tuple[int, float]] = {}
@@ -81,11 +81,11 @@ def read_readme(folder: Path) -> dict[Label, Facts]:
     return facts
 
 
-def facts_of(label: Label, known: Mapping[Label, Facts]) -> Facts:
+def stated_facts(label: Label, known: Mapping[Label, StatedFacts]) -> StatedFacts:
     """Return the facts of a test: those of the line that names it, else those of all tests."""
     fitting = [facts for other, facts in known.items() if other.word and _same(label, other)]
     different = set(fitting)
-    return different.pop() if len(different) == 1 else known.get(Label(""), Facts())
+    return different.pop() if len(different) == 1 else known.get(Label(""), StatedFacts())
 
 
 def _area(match: re.Match[str]) -> float:

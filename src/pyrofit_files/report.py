@@ -7,10 +7,10 @@ from typing import Any
 
 from pyrofit.errors import DataError
 from pyrofit_files.checks import run_checks
-from pyrofit_files.classify import examine
+from pyrofit_files.classify import examine_file
 from pyrofit_files.examined import Examined
 from pyrofit_files.names import Label, label_of
-from pyrofit_files.readme import Facts, facts_of, read_readme
+from pyrofit_files.readme import StatedFacts, read_readme, stated_facts
 
 ENDINGS = {".csv", ".txt", ".tsv", ".dat", ".asc"}
 TEXTS = ENDINGS - {".csv", ".tsv"}
@@ -36,12 +36,12 @@ def examine_folder(folder: Path) -> list[Examined]:
     if not paths:
         endings = ", ".join(sorted(ENDINGS))
         raise DataError(f"{folder}: it holds no measured files ({endings}); give another folder.")
-    readmes: dict[Path, dict[Label, Facts]] = {}
+    readmes: dict[Path, dict[Label, StatedFacts]] = {}
     files = []
     for path in paths:
         known = readmes.setdefault(path.parent, read_readme(path.parent))
         label = label_of(path.stem, path.parent.name)
-        seen = examine(path, label, facts_of(label, known))
+        seen = examine_file(path, label, stated_facts(label, known))
         if seen.table is not None or label.kind or path.suffix.casefold() not in TEXTS:
             files.append(seen)
     if not files:
@@ -64,7 +64,7 @@ def measured_files(folder: Path) -> Iterator[Path]:
             yield path
 
 
-def lines_of(files: Sequence[Examined], folder: Path, notes: bool) -> Iterator[str]:
+def report_lines(files: Sequence[Examined], folder: Path, notes: bool) -> Iterator[str]:
     """Yield the report: each file, the findings, and the counts."""
     for seen in files:
         signals = ", ".join(_signal_words(seen)) or "nothing recognised"
@@ -80,10 +80,10 @@ def lines_of(files: Sequence[Examined], folder: Path, notes: bool) -> Iterator[s
             where = f"{seen.path.relative_to(folder)}{column}"
             yield f"  {where}: {finding.check}: {finding.text}"
     yield ""
-    yield from summary(files)
+    yield from counts(files)
 
 
-def summary(files: Sequence[Examined]) -> list[str]:
+def counts(files: Sequence[Examined]) -> list[str]:
     """Return the counts of files, kinds and findings."""
     known = sum(seen.classified for seen in files)
     share = 100.0 * known / len(files)
@@ -98,7 +98,7 @@ def summary(files: Sequence[Examined]) -> list[str]:
     return lines
 
 
-def as_json(files: Iterable[Examined], folder: Path) -> dict[str, Any]:
+def report_as_json(files: Iterable[Examined], folder: Path) -> dict[str, Any]:
     """Return the report as data for JSON."""
     return {"folder": folder.name, "files": [_file_as_json(seen, folder) for seen in files]}
 

@@ -212,15 +212,15 @@ def test_step_loads_no_file_that_its_fingerprint_leaves_out(module: str) -> None
 def digests(study: Study) -> dict[str, str]:
     cost = next(iter(study.imp.costs))
     parts = {
-        "data": dependencies.data(study),
+        "data": dependencies.data_slice(study),
         "kinetics": dependencies.kinetics(study),
         "imp": dependencies.imp(study, cost, "sceua"),
-        "identify": dependencies.identify(study),
-        "validation": dependencies.validation(study),
-        "compare": dependencies.compare(study),
+        "identify": dependencies.identify_slice(study),
+        "validation": dependencies.validation_slice(study),
+        "compare": dependencies.compare_slice(study),
         "robustness": slice_of(study, "robustness", cost),
         "presentation": dependencies.presentation(study),
-        "diagnosis": dependencies.diagnose(study),
+        "diagnosis": dependencies.diagnose_slice(study),
     }
     return {name: digest(part) for name, part in parts.items()}
 

@@ -7,9 +7,9 @@ import pandas as pd
 import pytest
 
 from pyrofit.results.diagnosis_schema import OfWindow
-from pyrofit_blind_test.detectability import Misfit, located
-from pyrofit_blind_test.power import power, thresholds
-from pyrofit_blind_test.rates import bias, coverage, interval, times, windows
+from pyrofit_blind_test.detectability import Shortfall, located
+from pyrofit_blind_test.power import power_of_diagnosis, thresholds
+from pyrofit_blind_test.rates import bias, coverage, cpu_times, rate_interval, window_rates
 from pyrofit_blind_test.recovery import parameter_rows, strength_rows
 
 SLOPE = {"value": -1.1e-3, "low": -1.2e-3, "high": -1.05e-3, "low_wide": None, "high_wide": None}
@@ -98,7 +98,7 @@ def test_coverage_is_counted_with_its_interval() -> None:
         3,
         4,
     )
-    assert (first["low"], first["high"]) == interval(3, 4)
+    assert (first["low"], first["high"]) == rate_interval(3, 4)
 
 
 def test_bias_is_that_of_right_claims_with_a_repair() -> None:
@@ -121,7 +121,7 @@ def test_bias_is_that_of_right_claims_with_a_repair() -> None:
 def test_points_of_windows_are_counted_against_where_the_base_is_off() -> None:
     time = np.arange(0.0, 10.0)
     off = np.where((time >= 2.0) & (time <= 5.0), -0.9, 0.1)
-    misfit = Misfit(1.0, 1.0, 10, {("a", "mlr"): (time, off)})
+    misfit = Shortfall(1.0, 1.0, 10, {("a", "mlr"): (time, off)})
     window = OfWindow.model_construct(
         model="base", experiment="a", signal="mlr", start_s=4.0, end_s=8.0
     )
@@ -136,7 +136,7 @@ def test_windows_are_averaged_over_detectable_effects() -> None:
     rows = [("effect", 20.0, 0.5), ("effect", 30.0, 1.0), ("effect", 5.0, 0.0), ("null", 0.0, 0.1)]
     twins = pd.DataFrame(rows, columns=["kind", "detectability", "window_f1"])
     twins = twins.assign(window_precision=1.0, window_recall=1.0, signals="mlr", noise="white")
-    assert windows(twins).loc[0, ["twins", "window_f1"]].tolist() == [2, 0.75]
+    assert window_rates(twins).loc[0, ["twins", "window_f1"]].tolist() == [2, 0.75]
 
 
 def test_intervals_of_the_power_hold_the_truth_as_often_as_they_say() -> None:
@@ -155,7 +155,7 @@ def test_intervals_of_the_power_hold_the_truth_as_often_as_they_say() -> None:
 
 def test_times_are_stated_by_verdict() -> None:
     twins = pd.DataFrame({"verdict": ["named", "named", "unknown"], "seconds": [1.0, 3.0, 40.0]})
-    table = times(twins).set_index("verdict")
+    table = cpu_times(twins).set_index("verdict")
     assert table.loc["named"].tolist() == [2, 2.0, 3.0]
     assert table.loc["all", "longest_s"] == 40.0
 
@@ -171,8 +171,8 @@ def test_power_is_stated_for_effects_with_enough_twins() -> None:
     rows = [("k_T", 20.0, True)] * 4 + [("c_T", 3.0, False)] * 3 + [("time_offset", 9.0, True)] * 2
     rows += [("heater_ramp", 9.0, True)] * 2
     twins = pd.DataFrame(rows, columns=["hidden", "detectability", "right"]).assign(kind="effect")
-    table = power(twins).set_index("of")
+    table = power_of_diagnosis(twins).set_index("of")
     assert set(table.index) == {"all", "k_T", "heater_ramp"}
     assert table.loc["all", "twins"] == 11
     assert table.loc["all", "named"] == 8
-    assert power(twins.assign(kind="null")).empty
+    assert power_of_diagnosis(twins.assign(kind="null")).empty

@@ -18,13 +18,13 @@ from pyrofit.results.diagnosis_schema import Diagnosis
 from pyrofit_blind_test import foreign
 from pyrofit_blind_test.agreement import agreement
 from pyrofit_blind_test.places import Places
-from pyrofit_blind_test.plan import Case, cases_of
+from pyrofit_blind_test.plan import TwinPlan, cases_of
 from pyrofit_blind_test.recovery import strength_rows
 from pyrofit_blind_test.run import run_case
 from pyrofit_blind_test.setting import Setting, read_setting
 from pyrofit_blind_test.table import row_of
 from pyrofit_blind_test.thin import KEPT, SPACING_S, thin
-from pyrofit_blind_test.twin import describe, make_twin, without_effects
+from pyrofit_blind_test.twin import describe_twin, make_twin, without_effects
 
 CONFIG = Path(__file__).parents[2] / "config"
 FILE = CONFIG / "foreign_truth.yaml"
@@ -42,11 +42,13 @@ def setting() -> Setting:
 
 
 @pytest.fixture(scope="module")
-def cases(setting: Setting) -> tuple[Case, ...]:
+def cases(setting: Setting) -> tuple[TwinPlan, ...]:
     return cases_of(setting, "full")
 
 
-def case_of(cases: tuple[Case, ...], curves: str, signals: str, noise: str = "white") -> Case:
+def case_of(
+    cases: tuple[TwinPlan, ...], curves: str, signals: str, noise: str = "white"
+) -> TwinPlan:
     wanted = (curves, signals, noise)
     return next(c for c in cases if (c.curves, c.signals, c.noise) == wanted)
 
@@ -134,21 +136,21 @@ def test_what_is_missing_in_the_files_is_named(setting: Setting, tmp_path: Path)
 
 
 def test_parameter_that_the_study_lacks_is_named(
-    setting: Setting, cases: tuple[Case, ...], tmp_path: Path
+    setting: Setting, cases: tuple[TwinPlan, ...], tmp_path: Path
 ) -> None:
     folder = shutil.copytree(setting.curves, tmp_path / "curves")
     manifest = (folder / "manifest.json").read_text().replace('"rho_a"', '"rho_b"')
     (folder / "manifest.json").write_text(manifest)
     other = setting.model_copy(update={"curves": str(folder)})
     with pytest.raises(StudyError, match=r"unknown parameter 'rho_b'. Did you mean 'rho_a'"):
-        describe(other, cases[0])
+        describe_twin(other, cases[0])
 
 
 # Cases
 
 
 def test_plan_has_every_case_with_every_noise_and_both_sets_of_signals(
-    cases: tuple[Case, ...],
+    cases: tuple[TwinPlan, ...],
 ) -> None:
     cells = [(c.curves, c.signals, c.noise) for c in cases]
     assert len(set(cells)) == 14 * 2 * 3
@@ -161,7 +163,7 @@ def test_plan_has_every_case_with_every_noise_and_both_sets_of_signals(
 
 @pytest.mark.parametrize("noise", ["white", "measured", "ar0.5"])
 def test_noise_has_the_size_and_the_correlation_of_its_kind(
-    setting: Setting, cases: tuple[Case, ...], noise: str
+    setting: Setting, cases: tuple[TwinPlan, ...], noise: str
 ) -> None:
     lag_one = {"white": 0.0, "measured": -0.25, "ar0.5": 0.5}[noise]
     nulls = [c for c in cases if (c.curves, c.signals, c.noise) == ("d13", "mlr", noise)]
@@ -173,9 +175,11 @@ def test_noise_has_the_size_and_the_correlation_of_its_kind(
     assert np.mean(e[:, 1:] * e[:, :-1]) == pytest.approx(lag_one, abs=0.08)
 
 
-def test_study_that_is_diagnosed_holds_no_truth(setting: Setting, cases: tuple[Case, ...]) -> None:
+def test_study_that_is_diagnosed_holds_no_truth(
+    setting: Setting, cases: tuple[TwinPlan, ...]
+) -> None:
     case = case_of(cases, "d02", "mlr+back")
-    study, truth = describe(setting, case)
+    study, truth = describe_twin(setting, case)
     text = json.dumps(study)
     assert "foil_mass" not in text
     assert "d02" not in text
@@ -219,7 +223,7 @@ def quick(study: Study, measurements: Measurements) -> Diagnosis:
 
 
 def test_effect_in_curves_of_another_code_is_named_with_its_strength(
-    setting: Setting, cases: tuple[Case, ...], tmp_path: Path
+    setting: Setting, cases: tuple[TwinPlan, ...], tmp_path: Path
 ) -> None:
     # One draw of the noise: how often others lead to the name is counted in docs/blind_test.md.
     fixed = {"left_out": False, "seed": 5692711}

@@ -17,14 +17,14 @@ from pyrofit_compare.compute import REPEATS
 from pyrofit_compare.published import (
     LIBRARY,
     MEAN,
-    by_signal,
-    chosen,
-    errors,
+    chosen_sets,
+    errors_of_published,
+    means_by_signal,
     published,
 )
 from pyrofit_exchange.macfp.material import strict_of
-from pyrofit_exchange.macfp.numeric import numeric
-from pyrofit_explore.model import model_of
+from pyrofit_exchange.macfp.numeric import numeric_material
+from pyrofit_explore.model import pose_model
 from pyrofit_explore.published import PublishedSets
 
 SMOKE = Path(__file__).parents[2] / "config" / "smoke.yaml"
@@ -40,7 +40,7 @@ def base(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder.mkdir(parents=True)
     study = pf.read_study(SMOKE)
     values = {n: v * study.parameters[n].factor for n, v in TRUTH.items()}
-    material, _ = numeric(study.material, values)
+    material, _ = numeric_material(study.material, values)
     true = strict_of(material, ABOUT)
     (folder / "Polymer_A.json").write_text(true.text())
     component = material.components["polymer"].model_copy(update={"density_kg_m3": 600.0})
@@ -84,15 +84,15 @@ def test_sets_are_found_by_parts_of_their_names(base: Path) -> None:
     sets, left = published(base)
     assert list(sets) == ["Polymer_A", "Polymer_B", "Polymer_C"]
     assert left == []
-    assert list(chosen(sets, ["_b"])) == ["Polymer_B"]
-    assert list(chosen(sets, [])) == list(sets)
+    assert list(chosen_sets(sets, ["_b"])) == ["Polymer_B"]
+    assert list(chosen_sets(sets, [])) == list(sets)
     with pytest.raises(DataError, match=r"no parameter set is named 'Polymer_AB'\. Did you mean"):
-        chosen(sets, ["Polymer_AB"])
+        chosen_sets(sets, ["Polymer_AB"])
 
 
 def test_the_set_of_the_truth_predicts_best(base: Path, measured: pf.Study) -> None:
     sets, _ = published(base)
-    found, remarks = errors(measured, sets)
+    found, remarks = errors_of_published(measured, sets)
     assert list(found.index) == ["Polymer_A", "Polymer_B", "Polymer_C", REPEATS]
     assert found.loc["Polymer_A"].max() < 1e-3
     slab, tga = ("own_slab_60", "mlr"), ("own_tga_20K", "mass_fraction")
@@ -100,7 +100,7 @@ def test_the_set_of_the_truth_predicts_best(base: Path, measured: pf.Study) -> N
     assert np.isnan(found.loc["Polymer_C", slab])
     assert found.loc["Polymer_C", tga] < 1e-3
     assert any("the measurement is computed" in remark for remark in remarks)
-    table = by_signal(found)
+    table = means_by_signal(found)
     assert list(table.columns) == [MEAN, "mlr", "mass_fraction"]
     assert table.loc["Polymer_B", MEAN] == pytest.approx(found.loc["Polymer_B"].mean())
 
@@ -113,7 +113,7 @@ def test_the_explorer_draws_the_curves_of_a_set(
     data = dict(pf.read_data(measured, own).series)
     # The computed tests are fitted, so the problem holds them as well.
     data |= computed(measured, fast=True)
-    model = model_of(measured, data)
+    model = pose_model(measured, data)
     values = {n: v * measured.parameters[n].factor for n, v in TRUTH.items()}
     sets = PublishedSets()
     true, mine = sets.simulate(model, "Polymer_A", values), model.simulate(values)
@@ -145,7 +145,7 @@ def test_each_shipped_material_predicts_a_slab_and_a_tga(measured: pf.Study) -> 
         "University of Maryland, FDS validation",
         "FAA, FDS validation",
     }
-    found, _ = errors(measured, sets)
+    found, _ = errors_of_published(measured, sets)
     assert set(found.index) == {*sets, REPEATS}
     assert found.drop(index=REPEATS).notna().all(axis=None)
 

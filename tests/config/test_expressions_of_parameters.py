@@ -61,7 +61,7 @@ def test_study_with_an_expression_is_the_same_after_a_run_wrote_it() -> None:
     again = as_study(json.loads(json.dumps(study.model_dump(mode="json"))), "x.json")
     assert again == study
     other = as_study(c_r("0.6 * cp", "kJ/(kg K)"), "x.yaml")
-    assert dependencies.validation(other) != dependencies.validation(study)
+    assert dependencies.validation_slice(other) != dependencies.validation_slice(study)
 
 
 def test_values_of_many_sets_are_those_of_each_to_the_last_bit() -> None:

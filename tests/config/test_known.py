@@ -18,7 +18,7 @@ from pyrofit.estimate.prior import NO_PRIOR, NormalPrior, prior_of
 from pyrofit.results import dependencies
 from pyrofit.results.step import slice_of
 from pyrofit.show.facts import facts_of
-from pyrofit.show.subjects.identification.known_values import table as known_values
+from pyrofit.show.subjects.identification.known_values import known_values_table as known_values
 from pyrofit.show.subjects.identification.sentences import sentences
 
 SPAN = np.array([2.0, 4.0])
@@ -139,9 +139,9 @@ def test_problem_is_searched_and_known_in_si_units() -> None:
     "step",
     [
         lambda study: dependencies.imp(study, "RMSE", "sceua"),
-        dependencies.identify,
-        dependencies.diagnose,
-        dependencies.compare,
+        dependencies.identify_slice,
+        dependencies.diagnose_slice,
+        dependencies.compare_slice,
         lambda study: slice_of(study, "robustness", "RMSE"),
     ],
     ids=["imp", "identify", "diagnose", "compare", "robustness"],

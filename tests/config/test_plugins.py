@@ -156,7 +156,7 @@ def test_helper_of_own_effects_is_imported_and_counts_as_part_of_them(folder: Pa
         use_plugins([])
         write(folder / "own" / "effects" / "natural_convection.py", text)
         write(folder / "own" / "effects" / "_mine.py", f"MOST = {most}\n")
-        digests.add(digest(dependencies.diagnose(read(folder, given()))))
+        digests.add(digest(dependencies.diagnose_slice(read(folder, given()))))
     assert len(digests) == 2
 
 
@@ -195,11 +195,11 @@ def test_edit_of_an_own_cost_changes_its_own_searches_and_no_others(folder: Path
 def digests_of(study: Study) -> dict[str, str]:
     cost = next(iter(study.imp.costs))
     parts = {
-        "data": dependencies.data(study),
+        "data": dependencies.data_slice(study),
         "imp": dependencies.imp(study, cost, "sceua"),
-        "identify": dependencies.identify(study),
-        "diagnose": dependencies.diagnose(study),
-        "collect": dependencies.collect(study),
+        "identify": dependencies.identify_slice(study),
+        "diagnose": dependencies.diagnose_slice(study),
+        "collect": dependencies.collect_slice(study),
     }
     return {name: digest(part) for name, part in parts.items()}
 

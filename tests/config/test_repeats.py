@@ -25,7 +25,7 @@ from pyrofit.estimate.problem import Problem, make_problem
 from pyrofit.experiments.base import Kind
 from pyrofit.results.files import Results
 from pyrofit.show.subjects.identification import repeats as shown
-from pyrofit.show.subjects.identification.repeats import table
+from pyrofit.show.subjects.identification.repeats import repeats_table
 from pyrofit.stages.measurements import computed
 
 SDS = {"thickness_sd": 0.02, "flux_sd": 0.03, "clock_sd_s": 1.0}
@@ -352,7 +352,7 @@ def test_prior_of_a_problem_holds_what_differs() -> None:
 
 
 def test_table_names_repeats_and_the_signals_that_they_lack(tmp_path: Path) -> None:
-    frame = table(*fake(tmp_path, repeats()))
+    frame = repeats_table(*fake(tmp_path, repeats()))
     assert frame["repeat"].tolist() == ["slab_60_1", "slab_60_2"]
     assert frame["missing"].fillna("").tolist() == ["", "back_temperature"]
 
@@ -368,7 +368,7 @@ def test_table_gives_estimates_beside_their_stated_scatter(
     ]
     monkeypatch.setattr(shown.identification, "read", lambda study, results: None)
     monkeypatch.setattr(shown, "estimated", lambda study, identified: found)
-    frame = table(study, Results(tmp_path))
+    frame = repeats_table(study, Results(tmp_path))
     assert frame["stated_sd"].tolist() == [0.02, 0.02]
     assert frame["away_sd"].tolist() == pytest.approx([2.5, -0.5])
     assert frame["differs"].tolist() == ["factor on the thickness"] * 2

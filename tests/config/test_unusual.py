@@ -9,7 +9,7 @@ import pytest
 import yaml
 
 from pyrofit.config import as_study, read_mapping
-from pyrofit.config.check.unusual import COUNTS, USUAL, unusual
+from pyrofit.config.check.unusual import COUNTS, USUAL, unusual_values
 from pyrofit.errors import StudyError
 
 ROOT = Path(__file__).parents[2]
@@ -59,13 +59,13 @@ def told(change: dict[str, Any]) -> list[str]:
         for key in folders:
             part = part[int(key)] if isinstance(part, list) else part[key]
         part[last] = value
-    return unusual(as_study(given, "smoke.json"))
+    return unusual_values(as_study(given, "smoke.json"))
 
 
 @pytest.mark.parametrize("name", ["hotplate", "paper", "pine", "pmma", "smoke", "twin"])
 def test_nothing_is_unusual_in_the_shipped_studies(name: str) -> None:
     path = ROOT / "config" / f"{name}.yaml"
-    assert unusual(as_study(read_mapping(path), str(path))) == []
+    assert unusual_values(as_study(read_mapping(path), str(path))) == []
 
 
 def told_or_refused(place: str, value: float) -> str:

@@ -10,8 +10,8 @@ from pyrofit.data.oxygen import heat_release_rate
 from pyrofit.data.series import read_series
 from pyrofit.data.spec import SeriesSpec
 from pyrofit.errors import DataError
-from pyrofit.new_study.draft import measured
-from pyrofit.new_study.words import said, signal_lines
+from pyrofit.new_study.draft import read_experiment
+from pyrofit.new_study.words import lines_on_file, signal_lines
 
 TIME = np.arange(0.0, 120.0)
 C, AREA, AMBIENT, DELAY = 0.042, 0.00884, 0.2095, 8.0
@@ -90,7 +90,7 @@ def test_ftt_export_is_a_cone_test_with_mass_and_heat_release(tmp_path: Path) ->
     assert np.allclose(table.columns["HRR"][:-10] * AREA * 1e3, TRUE[:-10], atol=0.5)
     assert "HRR computed from oxygen" in table.mended[-1]
     assert "the test starts at 6 s of the record: give `delay_s: 6`" in table.mended
-    run = measured("cone", table.path)
+    run = read_experiment("cone", table.path)
     heat = run.signals[0]
     series = read_series(SeriesSpec(heat.quantity, table.path, heat.columns, heat.units))
     assert any("HRR computed from oxygen" in note for note in series.notes)
@@ -123,10 +123,12 @@ def test_key_without_which_no_heat_release_is_computed_is_told(tmp_path: Path, k
 
 
 def test_area_of_an_export_divides_the_mass_in_a_new_study(tmp_path: Path) -> None:
-    run = measured("cone", ftt(tmp_path / "A_Cone_50kW_1.csv"))
+    run = read_experiment("cone", ftt(tmp_path / "A_Cone_50kW_1.csv"))
     assert run.frames["mass"]["mass_kg_m2"].iloc[0] == pytest.approx(0.07 / AREA)
     assert "        sample_area_m2: 0.00884 # of the file" in signal_lines(run)
-    assert any("divided by sample_area_m2 0.00884, of the file" in line for line in said(run))
+    assert any(
+        "divided by sample_area_m2 0.00884, of the file" in line for line in lines_on_file(run)
+    )
 
 
 def test_ftt_export_without_rows_is_refused(tmp_path: Path) -> None:
@@ -149,7 +151,7 @@ def test_deatak_scan_takes_its_keys_from_the_file_beside_it(tmp_path: Path) -> N
     table = read_table(path)
     assert table.units["Stack TC"] == "degC"
     assert np.allclose(table.columns["HRR"][:-10] * AREA * 1e3, TRUE[:-10], atol=0.5)
-    assert measured("cone", path).number == 50.0
+    assert read_experiment("cone", path).number == 50.0
 
 
 def test_standard_columns_of_the_nist_data_base(tmp_path: Path) -> None:
@@ -160,7 +162,7 @@ def test_standard_columns_of_the_nist_data_base(tmp_path: Path) -> None:
     columns += [0 * TIME + 50.0, TRUE / AREA / 1e3]
     rows = [",".join(f"{x:.9g}" for x in row) for row in zip(*columns, strict=True)]
     path.write_text("\n".join([header, *rows]), encoding="utf-8")
-    found = {f.quantity: f for f in measured("cone", path).signals}
+    found = {f.quantity: f for f in read_experiment("cone", path).signals}
     assert found["heat_release_rate"].columns["value"] == "HRRPUA"
     assert found["mlr"].columns["value"] == "MLRPUA"
     series = read_series(SeriesSpec("mlr", path, found["mlr"].columns, found["mlr"].units))

@@ -2,7 +2,7 @@ from pathlib import Path
 
 import pytest
 
-from pyrofit.data.csvfile import Table, read_table
+from pyrofit.data.csvfile import FileTable, read_table
 from pyrofit.errors import DataError
 
 
@@ -171,5 +171,5 @@ def test_unreadable_file_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPa
 
 
 def test_line_number_of_a_row_counts_all_lines(tmp_path: Path) -> None:
-    table: Table = read_table(write(tmp_path, "\n\nTime\n\n[s]\n7\n8\n"))
+    table: FileTable = read_table(write(tmp_path, "\n\nTime\n\n[s]\n7\n8\n"))
     assert table.first_row == 6

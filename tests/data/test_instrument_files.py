@@ -112,7 +112,7 @@ TGA: dict[str, tuple[str, str]] = {
 def test_tga_export_is_read_in_si_units(text: str, encoding: str, tmp_path: Path) -> None:
     path = tmp_path / "run.txt"
     path.write_bytes(text.encode(encoding))
-    run = draft.measured("tga", path)
+    run = draft.read_experiment("tga", path)
     frame = run.frames["mass_fraction"]
     np.testing.assert_allclose(frame["time_s"], TIME_S, atol=1e-4)
     np.testing.assert_allclose(frame["temperature_K"], KELVIN, atol=1e-5)
@@ -178,7 +178,7 @@ def test_slab_file_is_read_in_si_units(
 ) -> None:
     path = tmp_path / "slab_25kW.csv"
     path.write_bytes(text.encode(encoding))
-    frame = draft.measured("gasification", path).frames["mlr"]
+    frame = draft.read_experiment("gasification", path).frames["mlr"]
     np.testing.assert_allclose(frame["time_s"], slower * TIME_S, atol=1e-3)
     np.testing.assert_allclose(frame["mlr_kg_m2_s"], MLR, atol=1e-6)
 
@@ -324,7 +324,7 @@ def test_long_series_is_thinned_with_a_note(
     monkeypatch.setattr(series, "MOST_POINTS", 50)
     path = tmp_path / "slab_25kW.csv"
     path.write_text("Time (s),MLR (kg/m2/s)\n" + rows(",", TIME_S, MLR), encoding="utf-8")
-    run = draft.measured("gasification", path)
+    run = draft.read_experiment("gasification", path)
     times = run.frames["mlr"]["time_s"].to_numpy()
     assert (len(times), times[0], times[-1]) == (50, TIME_S[0], TIME_S[-1])
     assert run.mended == ("thinned: 50 of 100 rows are used, evenly spread",)

@@ -13,7 +13,7 @@ import pytest
 from pyrofit.data import spreadsheet
 from pyrofit.data.csvfile import read_table
 from pyrofit.errors import DataError
-from pyrofit.new_study.draft import measured
+from pyrofit.new_study.draft import read_experiment
 from pyrofit.new_study.write import init
 
 KELVIN = np.arange(300.0, 900.0, 10.0)
@@ -76,7 +76,7 @@ def test_first_sheet_with_a_table_is_read(tmp_path: Path) -> None:
     path = write_xlsx(
         tmp_path / "a.xlsx", Cover=facts, Data=[*facts, [], NAMES, *ROWS], More=[NAMES, *ROWS]
     )
-    run = measured("tga", path)
+    run = read_experiment("tga", path)
     frame = run.frames["mass_fraction"]
     np.testing.assert_allclose(frame, np.c_[TIME, KELVIN, MASS / 100.0])
     assert not run.signals[0].guessed

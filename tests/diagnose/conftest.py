@@ -9,9 +9,9 @@ import pytest
 from hidden_effects import HIDDEN, SEED, Diagnosed
 from small import measured, study
 
-from pyrofit.diagnose.diagnosis import Diagnosis, examine
+from pyrofit.diagnose.diagnosis import DiagnosisWork, examine
 
-Once = Callable[[str, Callable[[], Diagnosis]], Diagnosis]
+Once = Callable[[str, Callable[[], DiagnosisWork]], DiagnosisWork]
 
 
 @pytest.fixture(scope="session")
@@ -19,9 +19,9 @@ def once(tmp_path_factory: pytest.TempPathFactory) -> Once:
     """Return a diagnosis by its name, made by the first of the processes that share the tests."""
     folder = tmp_path_factory.getbasetemp()
     folder = folder.parent if "PYTEST_XDIST_WORKER" in os.environ else folder
-    here: dict[str, Diagnosis] = {}
+    here: dict[str, DiagnosisWork] = {}
 
-    def made(name: str, make: Callable[[], Diagnosis]) -> Diagnosis:
+    def made(name: str, make: Callable[[], DiagnosisWork]) -> DiagnosisWork:
         if name not in here:
             with (folder / f"{name}.pickle").open("a+b") as file:
                 fcntl.flock(file, fcntl.LOCK_EX)  # the others wait for it
@@ -39,7 +39,7 @@ def once(tmp_path_factory: pytest.TempPathFactory) -> Once:
 def diagnosed(once: Once) -> Diagnosed:
     """Return the diagnosis of a twin by what it hides, all effects candidates."""
 
-    def diagnosis(hidden: str) -> Diagnosis:
+    def diagnosis(hidden: str) -> DiagnosisWork:
         data = measured(HIDDEN[hidden], SEED)
         return once(hidden, lambda: examine(study(), data, advise=False))
 
@@ -47,7 +47,7 @@ def diagnosed(once: Once) -> Diagnosed:
 
 
 @pytest.fixture(scope="session")
-def unexplained(once: Once) -> Diagnosis:
+def unexplained(once: Once) -> DiagnosisWork:
     """Return the diagnosis of a late heater by a catalogue that has no such thing."""
     candidates = study(effects=["k_T", "c_T"])
     data = measured({"heater_ramp": 8.0}, SEED)
@@ -55,7 +55,7 @@ def unexplained(once: Once) -> Diagnosis:
 
 
 @pytest.fixture(scope="session")
-def undecided(once: Once) -> Diagnosis:
+def undecided(once: Once) -> DiagnosisWork:
     """Return the diagnosis of a weak effect that others imitate."""
     candidates = study(effects=["front_convection", "back_loss", "gas_temperature"])
     data = measured({"front_convection": 1.2}, SEED)

@@ -14,7 +14,7 @@ from pyrofit.diagnose.base.fitted import implausible
 from pyrofit.diagnose.base.long_run import significant_factor
 from pyrofit.diagnose.base.model import model_of, strength_of
 from pyrofit.diagnose.base.plausible import plausible_ranges
-from pyrofit.diagnose.base.prediction import HELD_OUT, predictions
+from pyrofit.diagnose.base.prediction import HELD_OUT, model_predictions
 from pyrofit.diagnose.judge.accord import conflicts, deviations, moved_away, wrong_instead
 from pyrofit.diagnose.judge.claim_tests import Trust
 from pyrofit.diagnose.judge.power import expected_gain
@@ -100,7 +100,7 @@ def test_expected_gain_is_that_of_the_predictive_distribution() -> None:
     y = np.random.default_rng(1).standard_normal(TOTAL) + 2.0 * columns["rho"] - columns["k"]
     y = y + hidden * column_of(columns, "k_T")
     base = linear.fit(columns, y, calibrated=(0, 1, 2))
-    own, without = predictions([linear.fit_with(base, "k_T"), base])
+    own, without = model_predictions([linear.fit_with(base, "k_T"), base])
     out = np.arange(TOTAL) >= 3 * POINTS
     whole = linear.fit(columns, y)
     J = linear.fraction_columns(columns, whole.model)

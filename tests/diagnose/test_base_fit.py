@@ -8,7 +8,7 @@ from hidden_effects import HIDDEN, SEED
 from small import CHANNELS, LIMITS, SD, measured, study
 
 from pyrofit.config import candidate_effects
-from pyrofit.diagnose.base.descent import descend
+from pyrofit.diagnose.base.descent import descend_chi_square
 from pyrofit.diagnose.base.fit import set_up, start_points
 from pyrofit.diagnose.base.model import model_of
 from pyrofit.diagnose.settings import SETTINGS
@@ -76,7 +76,7 @@ def test_knowledge_is_in_si_units_and_pulls_its_parameter(series: Measurements) 
 def test_fit_of_the_base_is_the_lowest_of_all_its_starts(series: Measurements) -> None:
     trial = set_up(study(), series).base
     for x in start_points(trial.model.base, 11)[:6]:
-        assert trial.fit.chi2 < descend(trial.model, x).chi2 + 0.1
+        assert trial.fit.chi2 < descend_chi_square(trial.model, x).chi2 + 0.1
 
 
 def test_held_out_channels_are_not_fitted(series: Measurements) -> None:

@@ -13,7 +13,7 @@ from scipy.stats import kstest, multivariate_normal
 from pyrofit.diagnose.base.fitted import at_limit
 from pyrofit.diagnose.base.inflation import by_misfit, none_for
 from pyrofit.diagnose.base.model import model_of, strength_of
-from pyrofit.diagnose.base.prediction import HELD_OUT, predictions, slabs
+from pyrofit.diagnose.base.prediction import HELD_OUT, model_predictions, slab_experiments
 from pyrofit.diagnose.judge.claim_tests import Trust, disagreement, explains, trust
 from pyrofit.diagnose.judge.findings import Finding, Judged, Verdict
 from pyrofit.diagnose.result.verdict_text import sentences
@@ -34,11 +34,11 @@ def truth(k_T: float = 0.0, seed: int = 1) -> FloatArray:
 
 
 def scores(trial: linear.FittedModel) -> dict[str, float]:
-    return predictions([trial])[0].scores
+    return model_predictions([trial])[0].scores
 
 
 def trusted(trial: linear.FittedModel, without: linear.FittedModel) -> Trust:
-    own, before = predictions([trial, without])
+    own, before = model_predictions([trial, without])
     explained = explains(own, np.random.default_rng(1))
     return trust(trial, "k_T", own, before, explained, none_for(trial))
 
@@ -270,7 +270,7 @@ def test_gain_counts_in_units_of_the_misfit_of_the_predicted_signals() -> None:
     misfit = 4.0 * np.sin(np.arange(TOTAL) / 4.0) * SLAB_60
     base = linear.fit(COLUMNS, truth(0.5 * typical) + misfit)
     trial = linear.fit_with(base, "k_T")
-    own, before = predictions([trial, base])
+    own, before = model_predictions([trial, base])
     found = trust(trial, "k_T", own, before, None, by_misfit(trial))
     raw = {name: own.scores[name] - before.scores[name] for name in own.scores}
     by_signal = by_misfit(trial).factors
@@ -282,7 +282,7 @@ def test_gain_counts_in_units_of_the_misfit_of_the_predicted_signals() -> None:
 
 def test_one_slab_alone_is_not_left_out() -> None:
     trial = linear.fit(COLUMNS, truth(), calibrated=(0, 1))
-    assert slabs(trial) == []
+    assert slab_experiments(trial) == []
     assert list(scores(trial)) == [HELD_OUT]
     channels = [("slab", "mlr"), ("tga", "mass_fraction")]
     kinds = {"slab": "gasification", "tga": "tga"}
@@ -291,7 +291,7 @@ def test_one_slab_alone_is_not_left_out() -> None:
     base = SimpleNamespace(channels=channels, likelihood=likelihood)
     model = SimpleNamespace(base=base, channels=(0, 1))
     fake: Any = SimpleNamespace(model=model)
-    assert slabs(fake) == []
+    assert slab_experiments(fake) == []
 
 
 @pytest.mark.parametrize(

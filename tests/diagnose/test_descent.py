@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy.optimize import lsq_linear
 
-from pyrofit.diagnose.base.descent import descend, refreshed
+from pyrofit.diagnose.base.descent import descend_chi_square, refreshed
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.numerics.linear import dot
 from pyrofit.solver.arrays import FloatArray
@@ -63,7 +63,7 @@ STARTS = [(0.2, 0.75), (0.5, 0.5), (0.95, 0.05), (0.05, 0.95), (0.75, 0.2), (0.0
 def test_curved_valley_is_followed_to_its_lowest_point_from_every_side(
     start: tuple[float, float],
 ) -> None:
-    end = descend(fake(rosenbrock), np.array(start))
+    end = descend_chi_square(fake(rosenbrock), np.array(start))
     assert end.chi2 < SETTINGS.converged_gain
     assert end.x == pytest.approx([0.75, 0.75], abs=0.01)
 
@@ -74,7 +74,7 @@ def test_linear_model_ends_at_the_normal_equations_solution() -> None:
     y = A @ inside + 0.1 * rng.standard_normal(30)
     exact = np.linalg.lstsq(A, y, rcond=None)[0]
     for start in (np.zeros(4), np.ones(4)):
-        end = descend(fake(linear(A, y)), start)
+        end = descend_chi_square(fake(linear(A, y)), start)
         assert end.x == pytest.approx(exact, abs=1e-3)
         assert end.chi2 == pytest.approx(
             float(np.sum((A @ exact - y) ** 2)), abs=SETTINGS.converged_gain
@@ -85,7 +85,9 @@ def test_fixed_parameter_keeps_its_value_and_the_others_are_best_beside_it() -> 
     rng = np.random.default_rng(1)
     A, y = 20.0 * rng.standard_normal((30, 4)), 20.0 * rng.standard_normal(30)
     start = np.array([0.5, 0.3, 0.5, 0.5])
-    end = descend(fake(linear(A, A @ np.array([0.4, 0.7, 0.6, 0.5]) + 0.05 * y)), start, fixed=1)
+    end = descend_chi_square(
+        fake(linear(A, A @ np.array([0.4, 0.7, 0.6, 0.5]) + 0.05 * y)), start, fixed=1
+    )
     assert end.x[1] == 0.3
     rest = [0, 2, 3]
     target = A @ np.array([0.4, 0.7, 0.6, 0.5]) + 0.05 * y - 0.3 * A[:, 1]
@@ -97,7 +99,7 @@ def test_fixed_parameter_keeps_its_value_and_the_others_are_best_beside_it() -> 
 def test_rough_descent_asks_less_and_ends_near() -> None:
     rough, fine = fake(rosenbrock), fake(rosenbrock)
     ends = [
-        descend(model, np.array([0.2, 0.75]), enough=enough)
+        descend_chi_square(model, np.array([0.2, 0.75]), enough=enough)
         for model, enough in ((rough, 5.0), (fine, SETTINGS.converged_gain))
     ]
     assert len(rough.asked) < len(fine.asked)
@@ -110,7 +112,7 @@ def test_parameters_rest_exactly_at_limits_and_the_others_are_best_beside_them(s
     A = 20.0 * rng.standard_normal((30, 4))
     y = A @ np.array([1.3, -0.2, 0.4, 0.6]) + rng.standard_normal(30)
     bounded = lsq_linear(A, y, (0.0, 1.0), method="bvls")
-    end = descend(fake(linear(A, y)), rng.uniform(0.1, 0.9, 4))
+    end = descend_chi_square(fake(linear(A, y)), rng.uniform(0.1, 0.9, 4))
     assert set(np.flatnonzero(end.x == 1.0)) == set(np.flatnonzero(bounded.active_mask == 1))
     assert set(np.flatnonzero(end.x == 0.0)) == set(np.flatnonzero(bounded.active_mask == -1))
     assert bounded.active_mask.any()
@@ -120,7 +122,7 @@ def test_parameters_rest_exactly_at_limits_and_the_others_are_best_beside_them(s
 
 def test_parameter_leaves_a_limit_that_it_starts_at() -> None:
     A, y = 20.0 * np.eye(2), np.array([8.0, 12.0])
-    end = descend(fake(linear(A, y)), np.array([0.0, 1.0]))
+    end = descend_chi_square(fake(linear(A, y)), np.array([0.0, 1.0]))
     assert end.x == pytest.approx([0.4, 0.6], abs=1e-3)
 
 
@@ -132,7 +134,7 @@ def beyond(x: FloatArray) -> FloatArray:
 @pytest.mark.parametrize("start", STARTS)
 def test_nothing_outside_the_limits_is_ever_simulated(start: tuple[float, float]) -> None:
     model = fake(beyond)
-    descend(model, np.array(start))
+    descend_chi_square(model, np.array(start))
     asked = np.array(model.asked)
     assert asked.min() >= 0.0
     assert asked.max() <= 1.0
@@ -141,7 +143,7 @@ def test_nothing_outside_the_limits_is_ever_simulated(start: tuple[float, float]
 @pytest.mark.parametrize("start", STARTS)
 def test_valley_that_leaves_the_limits_is_followed_until_there(start: tuple[float, float]) -> None:
     """A step cut off at one limit after the other promised next to nothing, and was the last."""
-    end = descend(fake(beyond), np.array(start))
+    end = descend_chi_square(fake(beyond), np.array(start))
     # Best at u = 0.4 and v = u^2.
     assert end.x == pytest.approx([1.0, 0.24], abs=1e-3)
     assert end.chi2 == pytest.approx(18.0**2, abs=SETTINGS.converged_gain)
@@ -149,7 +151,7 @@ def test_valley_that_leaves_the_limits_is_followed_until_there(start: tuple[floa
 
 def test_start_outside_the_limits_is_brought_within() -> None:
     model = fake(linear(20.0 * np.eye(2), np.array([8.0, 12.0])))
-    end = descend(model, np.array([-3.0, 7.0]))
+    end = descend_chi_square(model, np.array([-3.0, 7.0]))
     assert model.asked[0].tolist() == [0.0, 1.0]
     assert end.x == pytest.approx([0.4, 0.6], abs=1e-3)
 
@@ -161,7 +163,7 @@ def test_end_is_never_above_the_start_even_with_misleading_derivatives(seed: int
     phase = rng.uniform(0.0, 6.0, 12)
     model = fake(lambda x: 5.0 * np.sin(wild @ x + phase))
     start, wrong = rng.uniform(0.0, 1.0, 3), rng.standard_normal((12, 3))
-    end = descend(model, start, wrong)
+    end = descend_chi_square(model, start, wrong)
     before = model.function(start)
     assert end.chi2 < before @ before  # no start is stationary: something is gained, too
     assert end.residuals.tolist() == model.function(end.x).tolist()
@@ -171,27 +173,27 @@ def test_end_is_never_above_the_start_even_with_misleading_derivatives(seed: int
 def test_wrong_derivatives_to_begin_with_lead_to_the_same_end() -> None:
     A, y = 20.0 * np.eye(2), np.array([8.0, 12.0])
     start = np.array([0.9, 0.1])
-    end = descend(fake(linear(A, y)), start, np.array([[-5.0, 30.0], [10.0, -1.0]]))
+    end = descend_chi_square(fake(linear(A, y)), start, np.array([[-5.0, 30.0], [10.0, -1.0]]))
     assert end.x == pytest.approx([0.4, 0.6], abs=2e-3)
 
 
 def test_parameter_that_changes_nothing_stays_where_it_is() -> None:
     A = np.column_stack([20.0 * np.ones(5), np.zeros(5)])
-    end = descend(fake(linear(A, np.full(5, 10.0))), np.array([0.1, 0.37]))
+    end = descend_chi_square(fake(linear(A, np.full(5, 10.0))), np.array([0.1, 0.37]))
     assert end.x == pytest.approx([0.5, 0.37], abs=1e-3)
     assert end.x[1] == 0.37
 
 
 def test_two_parameters_that_do_the_same_are_no_obstacle() -> None:
     A = 20.0 * np.ones((5, 2))
-    end = descend(fake(linear(A, np.full(5, 18.0))), np.array([0.1, 0.2]))
+    end = descend_chi_square(fake(linear(A, np.full(5, 18.0))), np.array([0.1, 0.2]))
     assert end.chi2 < SETTINGS.converged_gain
     assert end.x.sum() == pytest.approx(0.9, abs=1e-3)
 
 
 def test_refreshed_derivatives_are_those_at_the_end() -> None:
     model = fake(rosenbrock)
-    end = descend(model, np.array([0.2, 0.75]))
+    end = descend_chi_square(model, np.array([0.2, 0.75]))
     u = 4.0 * end.x[0] - 2.0
     exact = 120.0 * np.array([[-20.0 * u, 10.0], [-1.0, 0.0]])
     again = refreshed(model, end)

@@ -5,12 +5,12 @@ import pytest
 from hidden_effects import HIDDEN, SEED, Diagnosed
 from small import measured, study, truth_of
 
-from pyrofit.diagnose.base.descent import descend
+from pyrofit.diagnose.base.descent import descend_chi_square
 from pyrofit.diagnose.base.fit import set_up
 from pyrofit.diagnose.base.model import model_of, strength_of
-from pyrofit.diagnose.diagnosis import Diagnosis, examine, undecided_models
+from pyrofit.diagnose.diagnosis import DiagnosisWork, examine, undecided_models
 from pyrofit.diagnose.search.step import SearchContext
-from pyrofit.diagnose.search.stepwise import search
+from pyrofit.diagnose.search.stepwise import search_effects
 from pyrofit.effects import known_effects
 from pyrofit.results.diagnosis_candidates import OfCandidate
 
@@ -48,11 +48,11 @@ def test_fit_of_the_true_effect_is_as_good_as_a_descent_from_the_truth(
     series, described = measured({effect: strength}, 1), study(effects=[effect])
     setup = set_up(described, series)
     means = SearchContext(np.random.default_rng(described.seed), lambda text: None)
-    found = search(setup.base, [effect], 1, means)
+    found = search_effects(setup.base, [effect], 1, means)
     free = {effect: (strength_of(effect)[0],)}
     (trial,) = [trial for trial in found.trials if dict(trial.model.effects) == free]
     base = trial.model.base
-    oracle = descend(model_of(base, free), truth_of(base, {effect: strength}))
+    oracle = descend_chi_square(model_of(base, free), truth_of(base, {effect: strength}))
     assert trial.fit.chi2 <= oracle.chi2 + 1.0
     assert found.base.fit.chi2 > oracle.chi2 + 10.0  # there was something to find
     at_truth = model_of(base, free).residuals(truth_of(base, {effect: strength}))
@@ -63,7 +63,7 @@ def test_fit_of_the_base_is_as_good_as_a_descent_from_the_truth() -> None:
     for seed in (1, 2, 3):
         trial = set_up(study(), measured({}, seed)).base
         base = trial.model.base
-        oracle = descend(model_of(base, {}), truth_of(base, {}))
+        oracle = descend_chi_square(model_of(base, {}), truth_of(base, {}))
         assert trial.fit.chi2 <= oracle.chi2 + 1.0
 
 
@@ -90,7 +90,7 @@ def test_hidden_effect_is_named_by_its_group(effect: str, diagnosed: Diagnosed) 
     assert verdict.confirmed
 
 
-def row_of(found: Diagnosis, effect: str) -> OfCandidate:
+def row_of(found: DiagnosisWork, effect: str) -> OfCandidate:
     """Return the row of the model with an effect at its usual form."""
     free = {effect: [strength_of(effect)[0]]}
     (row,) = [row for row in found.content.candidates if row.free == free]

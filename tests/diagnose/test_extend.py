@@ -25,7 +25,7 @@ from pyrofit.effects import known_effects
 from pyrofit.estimate.problem import make_problem
 from pyrofit.results.files import Results
 from pyrofit.solver.arrays import FloatArray
-from pyrofit.stages.diagnose import diagnose
+from pyrofit.stages.diagnose import diagnose_study
 
 
 def reread(described: Study, trial: FittedModel, folder: Path, **signals: Any) -> Study:
@@ -138,7 +138,7 @@ def test_extended_study_finds_its_plugins(
     monkeypatch.setattr("pyrofit.stages.diagnose.examine", lambda *_, **__: found)
     monkeypatch.setattr("pyrofit.stages.diagnose.load", lambda *_: {})
     results = Results(Path("results/small"))
-    diagnose(study().model_copy(update={"plugins": ("mine/own",)}), results, lambda *_: None)
+    diagnose_study(study().model_copy(update={"plugins": ("mine/own",)}), results, lambda *_: None)
     path = results.diagnosis("extended.yaml")
     (folder,) = read_mapping(path)["plugins"]
     assert (path.parent / folder).resolve() == tmp_path / "mine" / "own"

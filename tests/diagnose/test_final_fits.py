@@ -11,23 +11,23 @@ from small import base_of, clean, measured, study, truth_of
 
 from pyrofit.diagnose.base import accuracy
 from pyrofit.diagnose.base.accuracy import tolerated_error, with_accuracy
-from pyrofit.diagnose.base.descent import descend, refreshed
+from pyrofit.diagnose.base.descent import descend_chi_square, refreshed
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import model_of, name_of, strength_of
 from pyrofit.diagnose.diagnosis import examine
 from pyrofit.diagnose.judge.final_fits import final_fits
 from pyrofit.diagnose.judge.findings import Exchange
 from pyrofit.diagnose.judge.intervals import (
-    interval,
+    interval_over_models,
     strengths,
     values_of,
     wide_intervals,
     with_all_forms,
 )
 from pyrofit.diagnose.judge.verdict import judge
-from pyrofit.diagnose.result.candidates import candidates
+from pyrofit.diagnose.result.candidates import candidate_records
 from pyrofit.diagnose.search.step import SearchContext
-from pyrofit.diagnose.search.stepwise import Search, search
+from pyrofit.diagnose.search.stepwise import Search, search_effects
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.model.accuracy import Accuracy
 from pyrofit.solver.arrays import FloatArray
@@ -42,7 +42,7 @@ def coarse_fit() -> tuple[FittedModel, Accuracy]:
     problem = fine.likelihood.problem
     coarse = replace(problem, accuracy=problem.accuracy.coarsened())
     model = model_of(replace(fine, likelihood=replace(fine.likelihood, problem=coarse)), {})
-    fit = refreshed(model, descend(model, truth_of(fine, {})))
+    fit = refreshed(model, descend_chi_square(model, truth_of(fine, {})))
     return FittedModel(model, fit), problem.accuracy
 
 
@@ -91,7 +91,9 @@ def two_effects() -> Search:
         y = y + 0.8 * strength_of(effect)[1].typical * column_of(COLUMNS, effect)
     columns = looks_like("k_T", "heater_ramp")
     base = linear.fit(columns, y)
-    return search(base, EFFECTS, 3, SearchContext(np.random.default_rng(1), lambda text: None))
+    return search_effects(
+        base, EFFECTS, 3, SearchContext(np.random.default_rng(1), lambda text: None)
+    )
 
 
 def test_wide_interval_spans_the_models_that_are_not_separated() -> None:
@@ -99,7 +101,7 @@ def test_wide_interval_spans_the_models_that_are_not_separated() -> None:
     verdict = judge(found, np.random.default_rng(2))
     final = final_fits(verdict, None)
     assert len(final.leading) == 2
-    rows = [row for row in candidates(found, verdict, final) if not row.rejected]
+    rows = [row for row in candidate_records(found, verdict, final) if not row.rejected]
     assert {tuple(sorted(row.effects)) for row in rows} == {
         ("c_T", "k_T"),
         ("c_T", "heater_ramp"),
@@ -145,7 +147,7 @@ def test_models_with_all_forms_are_those_of_their_effects() -> None:
     )
     values, sd = values_of(model)
     name = linear.strength_name("glass_transition")
-    own = interval(model, model.model.names.index(name), values, sd)
+    own = interval_over_models(model, model.model.names.index(name), values, sd)
     assert wide_intervals([model])[name] == (own["low"], own["high"])
 
 
@@ -154,7 +156,7 @@ def test_unknown_rests_on_the_final_model_alone() -> None:
     verdict = replace(judge(found, np.random.default_rng(2)), kind="unknown")
     final = final_fits(verdict, None)
     assert final.leading == (found.end.key,)
-    rows = candidates(found, verdict, final)
+    rows = candidate_records(found, verdict, final)
     stated = [row for row in rows if any(p.low_wide for p in row.parameters.values())]
     assert stated == [], "none of these effects has another form"
 
@@ -167,10 +169,12 @@ def test_two_effects_in_the_place_of_one_widen_the_interval_of_the_others() -> N
     first = replace(verdict.findings[0], instead=(one,))
     final = final_fits(replace(verdict, findings=(first, *verdict.findings[1:])), None)
     assert other.key in final.leading
-    rows = candidates(found, replace(verdict, findings=(first, *verdict.findings[1:])), final)
+    rows = candidate_records(
+        found, replace(verdict, findings=(first, *verdict.findings[1:])), final
+    )
     (end,) = [row for row in rows if set(row.effects) == set(found.end.effects)]
     name = linear.strength_name("c_T")
-    own = interval(other, other.model.names.index(name), *values_of(other))
+    own = interval_over_models(other, other.model.names.index(name), *values_of(other))
     assert end.parameters[name].low_wide <= own["low"]
     assert end.parameters[name].high_wide >= own["high"]
 

@@ -9,11 +9,11 @@ import pytest
 from free_twins import MLR, SLABS, STEP, Change, nothing, substance, twin
 
 from pyrofit.diagnose.advise.free_corrections import Probe, probes
-from pyrofit.diagnose.base.descent import descend
+from pyrofit.diagnose.base.descent import descend_chi_square
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import model_of
 from pyrofit.diagnose.corrections.fit import with_coefficients
-from pyrofit.diagnose.corrections.forms import corrections
+from pyrofit.diagnose.corrections.forms import fitted_corrections
 from pyrofit.diagnose.search.refit import look_at, with_effect
 from pyrofit.effects.base import changed
 from pyrofit.estimate.problem import Problem
@@ -173,7 +173,7 @@ def test_nothing_is_absorbed_where_nothing_is_hidden() -> None:
 def test_zero_coefficients_are_the_base_and_each_other_value_is_not(number: int) -> None:
     trial = twin(nothing, MLR)
     likelihood = trial.model.likelihood
-    correction = corrections(likelihood.problem, likelihood.values(trial.fit.x))[number]
+    correction = fitted_corrections(likelihood.problem, likelihood.values(trial.fit.x))[number]
     model = with_coefficients(trial.model, correction)
     count = len(correction.sd)
     zero = np.append(trial.fit.x, np.full(count, 0.5))
@@ -194,7 +194,7 @@ def test_described_flux_with_a_step_and_a_parameter_is_multiplied() -> None:
     fitted = twin(nothing, MLR)
     problem = fronts(flux_W_m2=steps)(fitted.model.likelihood.problem)
     problem = replace(problem, fixed={**problem.fixed, "q": 1e4})
-    (correction, *_) = corrections(problem, fitted.model.likelihood.values(fitted.fit.x))
+    (correction, *_) = fitted_corrections(problem, fitted.model.likelihood.values(fitted.fit.x))
     derived: Any = correction.problem
     found = derived.derive({**problem.fixed, **dict.fromkeys(correction.sd, 0.1)})
     table = derived.runs["capa_60"].experiment.front.flux_W_m2
@@ -222,4 +222,4 @@ def test_probe_of_a_calibration_with_tga_is_that_of_the_hidden_kind() -> None:
 def test_tga_alone_has_no_probe() -> None:
     trial = twin(nothing, (*SLABS, ("tga_10K", "mass_fraction")))
     model = model_of(trial.model.base, {}, [len(SLABS)])
-    assert probes(FittedModel(model, descend(model, trial.fit.x))) == []
+    assert probes(FittedModel(model, descend_chi_square(model, trial.fit.x))) == []

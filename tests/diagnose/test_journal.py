@@ -12,7 +12,7 @@ import pytest
 from small import measured, study
 
 from pyrofit.diagnose.base.journal import OF_ANY, Journal, name_of_descent
-from pyrofit.diagnose.diagnosis import Diagnosis, examine
+from pyrofit.diagnose.diagnosis import DiagnosisWork, examine
 from pyrofit.estimate.bounded_least_squares import Fit
 from pyrofit.solver.arrays import FloatArray
 
@@ -85,7 +85,7 @@ def test_name_tells_start_model_and_everything_else() -> None:
     assert names[0] == name_of_descent(line(1.0), X.copy())
 
 
-def diagnosed(journal: Journal | None) -> Diagnosis:
+def diagnosed(journal: Journal | None) -> DiagnosisWork:
     data = measured({"heater_ramp": 8.0}, 2)
     described = study(effects=["heater_ramp", "k_T"], most_effects=1)
     return examine(described, data, processes=2, advise=False, journal=journal)

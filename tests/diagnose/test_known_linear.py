@@ -5,13 +5,13 @@ import numpy as np
 import pytest
 from small import study
 
-from pyrofit.diagnose.base.descent import descend, refreshed
+from pyrofit.diagnose.base.descent import descend_chi_square, refreshed
 from pyrofit.diagnose.base.fit import weighed
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import strength_of
 from pyrofit.diagnose.judge.intervals import values_of
 from pyrofit.diagnose.search.step import SearchContext
-from pyrofit.diagnose.search.stepwise import search
+from pyrofit.diagnose.search.stepwise import search_effects
 from pyrofit.estimate.prior import NO_PRIOR, NormalPrior, within_known
 from pyrofit.solver.arrays import FloatArray
 
@@ -32,7 +32,7 @@ def design() -> FloatArray:
 def fitted(known: NormalPrior) -> tuple[FloatArray, FloatArray]:
     """Return values and standard deviations of a fit that is followed to its very end."""
     model = linear.fit(columns(), MEASURED, known=known).model
-    end = descend(model, np.full(2, 0.5), enough=1e-12)
+    end = descend_chi_square(model, np.full(2, 0.5), enough=1e-12)
     return values_of(FittedModel(model, refreshed(model, end)))
 
 
@@ -76,7 +76,7 @@ def test_misfit_that_an_effect_explains_no_longer_weighs_known_values() -> None:
     known = NormalPrior((1,), np.array([k + 0.2]), np.array([0.1]))
     start = weighed(linear.fit(found, y, known=known))
     assert start.model.base.likelihood.prior.weight > 2.0
-    end = search(start, ["k_T"], 6, SearchContext(np.random.default_rng(1))).end
+    end = search_effects(start, ["k_T"], 6, SearchContext(np.random.default_rng(1))).end
     assert end.effects == ("k_T",)
     assert end.model.base.likelihood.prior.weight == 1.0
     value, sd = (part[1] for part in values_of(end))

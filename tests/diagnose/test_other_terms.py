@@ -18,7 +18,7 @@ from pyrofit.diagnose.judge.other_terms import OtherTerm, other_terms
 from pyrofit.diagnose.judge.verdict import judge
 from pyrofit.diagnose.result.verdict_text import sentences
 from pyrofit.diagnose.search.step import SearchContext
-from pyrofit.diagnose.search.stepwise import search
+from pyrofit.diagnose.search.stepwise import search_effects
 from pyrofit.effects import known_effects
 from pyrofit.estimate.problem import Problem
 from pyrofit.solver.arrays import FloatArray
@@ -73,7 +73,9 @@ def models() -> tuple[FittedModel, FittedModel]:
 
 def verdict() -> Verdict:
     context = SearchContext(np.random.default_rng(1))
-    return judge(search(linear.fit(COLUMNS, Y), EFFECTS, 3, context), np.random.default_rng(2))
+    return judge(
+        search_effects(linear.fit(COLUMNS, Y), EFFECTS, 3, context), np.random.default_rng(2)
+    )
 
 
 def test_correction_that_does_the_same_fits_as_well(monkeypatch: pytest.MonkeyPatch) -> None:

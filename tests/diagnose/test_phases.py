@@ -9,9 +9,9 @@ import pytest
 from hidden_effects import Diagnosed
 from small import TIMES
 
-from pyrofit.diagnose.diagnosis import Diagnosis
+from pyrofit.diagnose.diagnosis import DiagnosisWork
 from pyrofit.diagnose.result import phases
-from pyrofit.diagnose.result.phases import course, describe
+from pyrofit.diagnose.result.phases import course_of_channel, describe_windows
 from pyrofit.experiments.base import PHASES
 from pyrofit.experiments.heated.course import of_mass
 from pyrofit.experiments.slab.course import of_curves
@@ -85,7 +85,7 @@ def test_phases_of_a_tga_begin_where_the_documentation_says() -> None:
 def test_course_of_a_simulation_runs_through_the_phases_in_order(diagnosed: Diagnosed) -> None:
     found = diagnosed("nothing").search.base
     for channel in found.model.channels:
-        one = course(found.model, found.fit.x, channel)
+        one = course_of_channel(found.model, found.fit.x, channel)
         name, _ = found.model.base.channels[channel]
         assert one.phase.size == TIMES[name].size
         assert list(one.phase) == sorted(one.phase)
@@ -100,14 +100,14 @@ def test_course_at_the_times_of_a_channel_keeps_the_phases_of_its_kind(
     heated = of_mass(np.linspace(1.0, 0.1, 1000))
     kind = SimpleNamespace(course=lambda *given: heated)
     monkeypatch.setattr(phases, "kind_of", lambda experiment: kind)
-    one = phases.course(found.model, found.fit.x, 0)
+    one = phases.course_of_channel(found.model, found.fit.x, 0)
     assert one.phase.size < heated.phase.size
     assert one.phases == heated.phases
 
 
-def test_windows_say_simulated_less_measured_at_their_place(unexplained: Diagnosis) -> None:
+def test_windows_say_simulated_less_measured_at_their_place(unexplained: DiagnosisWork) -> None:
     found = unexplained.search
-    windows = describe("base", found.base, found.rounds[0].lack().windows, 1.0)
+    windows = describe_windows("base", found.base, found.rounds[0].lack().windows, 1.0)
     assert windows
     for w, stretch in zip(windows, found.rounds[0].lack().windows, strict=True):
         rows = unexplained.curves.query("experiment == @w.experiment and signal == @w.signal")
@@ -122,7 +122,7 @@ def test_windows_say_simulated_less_measured_at_their_place(unexplained: Diagnos
         assert w.critical == 1.0
 
 
-def test_model_without_the_late_heater_starts_too_early(unexplained: Diagnosis) -> None:
+def test_model_without_the_late_heater_starts_too_early(unexplained: DiagnosisWork) -> None:
     """The heater comes up slowly in truth: at first the model is ahead, to be behind later."""
     windows = [w for w in unexplained.content.windows if w.model == "base"]
     rate = [w for w in windows if w.signal == "mlr" and w.experiment == "slab_60"]

@@ -9,7 +9,7 @@ import pytest
 from hidden_effects import Diagnosed
 from small import LIMITS, TRUTH, measured, study
 
-from pyrofit.diagnose.diagnosis import Diagnosis, examine
+from pyrofit.diagnose.diagnosis import DiagnosisWork, examine
 from pyrofit.effects import known_effects
 from pyrofit.results.diagnosis_schema import Diagnosis as Schema
 
@@ -17,7 +17,9 @@ PAGE = Path(__file__).parents[2] / "docs" / "diagnosis.md"
 
 
 @pytest.fixture(scope="module")
-def results(diagnosed: Diagnosed, unexplained: Diagnosis, undecided: Diagnosis) -> list[Schema]:
+def results(
+    diagnosed: Diagnosed, unexplained: DiagnosisWork, undecided: DiagnosisWork
+) -> list[Schema]:
     return [unexplained.content, undecided.content, diagnosed("k_T").content]
 
 
@@ -104,14 +106,14 @@ def test_effects_that_are_screened_are_in_order_of_their_score(diagnosed: Diagno
 
 
 def test_probes_come_with_an_unknown_effect_only(
-    unexplained: Diagnosis, undecided: Diagnosis
+    unexplained: DiagnosisWork, undecided: DiagnosisWork
 ) -> None:
     absorbed = {probe.probe: probe.absorbed for probe in unexplained.content.probes}
     assert max(absorbed, key=lambda name: absorbed[name]) == "flux"
     assert undecided.content.probes == []
 
 
-def test_next_experiment_separates_what_is_not_told_apart(undecided: Diagnosis) -> None:
+def test_next_experiment_separates_what_is_not_told_apart(undecided: DiagnosisWork) -> None:
     effects = undecided.content.verdict.sets[0]
     assert len(effects) > 1
     best = undecided.content.next_experiment[0]

@@ -13,7 +13,7 @@ from pyrofit.diagnose.base.fitted import polished
 from pyrofit.diagnose.base.model import extended, strength_of
 from pyrofit.diagnose.search import refit
 from pyrofit.diagnose.search.refit import from_best_start, from_elsewhere, look_at
-from pyrofit.diagnose.search.score_test import Screening, tried
+from pyrofit.diagnose.search.score_test import Screening, strengths_tried
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.solver.arrays import FloatArray
 
@@ -88,7 +88,11 @@ def test_starts_are_the_most_promising_strength_a_strong_one_and_the_other_side(
 
 def test_starts_of_an_effect_with_one_sign_hold_the_typical_strength() -> None:
     seen = Screening(
-        "in_depth", tried("in_depth"), *np.zeros((2, 3, 4)), np.array([1.0, 2.0, 3.0, 4.0]), 2
+        "in_depth",
+        strengths_tried("in_depth"),
+        *np.zeros((2, 3, 4)),
+        np.array([1.0, 2.0, 3.0, 4.0]),
+        2,
     )
     _, quantity = strength_of("in_depth")
     found = seen.strengths[refit.starts(seen)]

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from linear import TOTAL, column_of
 
-from pyrofit.diagnose.base.descent import descend, refreshed
+from pyrofit.diagnose.base.descent import descend_chi_square, refreshed
 from pyrofit.diagnose.base.fit import apart
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import Base, model_of, strength_of
@@ -51,7 +51,7 @@ def fit_from(base: Base, rho: float, *effects: str) -> FittedModel:
     model = model_of(base, {effect: (strength_of(effect)[0],) for effect in effects})
     x = np.full(len(model.names), 0.5)
     x[0] = rho
-    return FittedModel(model, refreshed(model, descend(model, x)))
+    return FittedModel(model, refreshed(model, descend_chi_square(model, x)))
 
 
 @pytest.fixture(scope="module")

@@ -7,7 +7,7 @@ from small import clean as clean_curves
 
 from pyrofit.diagnose.base.disturbed import disturbed, drawn
 from pyrofit.diagnose.base.model import Base
-from pyrofit.diagnose.diagnosis import Diagnosis, examine
+from pyrofit.diagnose.diagnosis import DiagnosisWork, examine
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.estimate.correlation import Correlation
 from pyrofit.estimate.noise import NoiseModel
@@ -66,19 +66,19 @@ CANDIDATES = ["heater_ramp", "k_T", "c_T", "back_loss"]
 
 
 @pytest.fixture(scope="module")
-def late_heater() -> list[Diagnosis]:
+def late_heater() -> list[DiagnosisWork]:
     """Return the diagnosis of a late heater as measured, of draw 0 twice, and of draw 1."""
     given, data = study(effects=CANDIDATES), measured({"heater_ramp": 8.0}, SEED)
     return [examine(given, data, advise=False, draw=draw) for draw in (None, 0, 0, 1)]
 
 
-def test_a_clear_effect_is_named_from_disturbed_data(late_heater: list[Diagnosis]) -> None:
+def test_a_clear_effect_is_named_from_disturbed_data(late_heater: list[DiagnosisWork]) -> None:
     for found in late_heater:
         assert found.content.verdict.effects == ["heater_ramp"]
 
 
 def test_each_draw_changes_the_data_and_the_same_draw_gives_the_same_bits(
-    late_heater: list[Diagnosis],
+    late_heater: list[DiagnosisWork],
 ) -> None:
     measured_chi2, first, again, second = (found.search.end.fit.chi2 for found in late_heater)
     assert first == again
@@ -86,7 +86,7 @@ def test_each_draw_changes_the_data_and_the_same_draw_gives_the_same_bits(
     assert first == pytest.approx(measured_chi2, rel=0.1)
 
 
-def test_processes_do_not_change_a_draw(late_heater: list[Diagnosis]) -> None:
+def test_processes_do_not_change_a_draw(late_heater: list[DiagnosisWork]) -> None:
     given, data = study(effects=CANDIDATES), measured({"heater_ramp": 8.0}, SEED)
     found = examine(given, data, processes=2, advise=False, draw=0)
     assert found.content == late_heater[1].content

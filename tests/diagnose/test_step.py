@@ -13,17 +13,17 @@ from pyrofit.diagnose.base import prediction
 from pyrofit.diagnose.base.adequacy import LackOfFit
 from pyrofit.diagnose.base.fitted import FittedModel, up_to_date
 from pyrofit.diagnose.base.model import extended, strength_of
-from pyrofit.diagnose.base.prediction import Made, predictions
+from pyrofit.diagnose.base.prediction import Made, model_predictions
 from pyrofit.diagnose.judge import places, verdict
-from pyrofit.diagnose.judge.inflation import inflation_of
-from pyrofit.diagnose.judge.places import needed
+from pyrofit.diagnose.judge.inflation import inflation_by_misfit
+from pyrofit.diagnose.judge.places import end_without_superfluous
 from pyrofit.diagnose.result import candidates
 from pyrofit.diagnose.search import step, stepwise
 from pyrofit.diagnose.search.refit import model_with
 from pyrofit.diagnose.search.score_test import Screening
 from pyrofit.diagnose.search.step import SearchContext, more, most_promising, promising_or_kin
 from pyrofit.diagnose.search.step_start import step_from as look_first
-from pyrofit.diagnose.search.stepwise import Search, search, settled
+from pyrofit.diagnose.search.stepwise import Search, search_effects, settled
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.solver.arrays import FloatArray
 
@@ -186,10 +186,10 @@ def test_predictions_begin_with_the_derivatives_at_hand(
         begun.append(None if begin is None else begin - model.jacobian(x, model.residuals(x)))
         return real(model, x, None)
 
-    real = prediction.descend
-    (own,) = predictions([trial])
-    monkeypatch.setattr(prediction, "descend", descend)
-    (anew,) = predictions([trial])
+    real = prediction.descend_chi_square
+    (own,) = model_predictions([trial])
+    monkeypatch.setattr(prediction, "descend_chi_square", descend)
+    (anew,) = model_predictions([trial])
     assert len(begun) == 2
     assert all(wrong is not None and float(np.abs(wrong).max()) < 1e-6 for wrong in begun)
     assert own.scores == pytest.approx(anew.scores, abs=SETTINGS.converged_gain)
@@ -201,12 +201,12 @@ def test_predictions_made_before_are_not_made_again(
     """They are known by the fit that they start from, whatever model holds it."""
     made: Made = {}
     trial = fit_with(base, "k_T")
-    (first,) = predictions([trial], made=made)
+    (first,) = model_predictions([trial], made=made)
     monkeypatch.setattr(prediction, "_refit", None)
-    same, again = predictions([trial, up_to_date(trial)], made=made)
+    same, again = model_predictions([trial, up_to_date(trial)], made=made)
     assert first.scores == same.scores == again.scores
     with pytest.raises(TypeError):
-        predictions([base], made=made)
+        model_predictions([base], made=made)
 
 
 def two_effects_and_a_misfit(c_T_share: float) -> Search:
@@ -216,7 +216,7 @@ def two_effects_and_a_misfit(c_T_share: float) -> Search:
     y = planted("k_T") + strengths * size * column_of(COLUMNS, "c_T")
     start = linear.fit(COLUMNS, y)
     context = SearchContext(np.random.default_rng(1))
-    return search(start, ("c_T", "k_T"), 2, context)
+    return search_effects(start, ("c_T", "k_T"), 2, context)
 
 
 @pytest.mark.parametrize(("share", "needed_judgements"), [(0.4, 2), (1.5, 1)])
@@ -232,10 +232,10 @@ def test_effects_are_judged_until_one_fails_the_one_that_gains_least_first(
 
     monkeypatch.setattr(verdict, "findings_of", findings_of)
     context = SearchContext(np.random.default_rng(2))
-    found, without = needed(two_effects_and_a_misfit(share), context)
+    found, without = end_without_superfluous(two_effects_and_a_misfit(share), context)
     assert set(found.end.effects) == {"c_T", "k_T"}
     failed = verdict._first_failed(found, without, context)
-    penalised = inflation_of(found).penalised
+    penalised = inflation_by_misfit(found).penalised
     order = sorted((0, 1), key=lambda k: penalised(without[k]))
     findings = places.findings_of(found, without, context)
     unsupported = [k for k in order if verdict._against(findings[k])]
@@ -288,7 +288,7 @@ def test_model_whose_held_out_runs_do_not_finish_is_left_out(
         monkeypatch.setattr(module, "finishes", lambda trial: not set(trial.effects) & set(bad))
     told: list[str] = []
     context = SearchContext(np.random.default_rng(1), tell=told.append)
-    found = search(start, ["c_T", "k_T"], 6, context)
+    found = search_effects(start, ["c_T", "k_T"], 6, context)
     assert found.end.effects == end
     best = min(found.trials, key=lambda trial: trial.penalised)
     why = candidates._why_not(found, found.base, best, found.end.penalised)

@@ -18,13 +18,13 @@ from pyrofit.diagnose.judge.final_fits import final_fits
 from pyrofit.diagnose.judge.findings import Judged, Verdict
 from pyrofit.diagnose.judge.places import alternatives, exchanges, without_each, words_against
 from pyrofit.diagnose.judge.verdict import ONE_FLUX, doubts_of, judge
-from pyrofit.diagnose.result.candidates import candidates
-from pyrofit.diagnose.result.verdict_text import form_of, sentences
+from pyrofit.diagnose.result.candidates import candidate_records
+from pyrofit.diagnose.result.verdict_text import form_words, sentences
 from pyrofit.diagnose.search import step_start
 from pyrofit.diagnose.search.step import SearchContext
 from pyrofit.diagnose.search.step_start import step_from as look_first
 from pyrofit.diagnose.search.stepwise import Pass as Pass
-from pyrofit.diagnose.search.stepwise import Search, search
+from pyrofit.diagnose.search.stepwise import Search, search_effects
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects import known_effects
 from pyrofit.results.diagnosis_candidates import OfCandidate
@@ -59,7 +59,9 @@ def searched(
     most: int = 3,
 ) -> Search:
     trial = linear.fit(columns, y, calibrated=calibrated)
-    return search(trial, effects, most, SearchContext(np.random.default_rng(1), lambda text: None))
+    return search_effects(
+        trial, effects, most, SearchContext(np.random.default_rng(1), lambda text: None)
+    )
 
 
 def verdict_on(found: Search) -> Verdict:
@@ -71,7 +73,7 @@ def verdict_on(found: Search) -> Verdict:
 def listed(found: Search) -> list[OfCandidate]:
     """Return the rows of the candidates that the verdict on a search leaves."""
     verdict = verdict_on(found)
-    return candidates(found, verdict, final_fits(verdict, None))
+    return candidate_records(found, verdict, final_fits(verdict, None))
 
 
 def alike(effect: str, other: str, share: float = 0.01) -> dict[str, FloatArray]:
@@ -158,7 +160,7 @@ def test_forms_of_one_group_that_look_alike_are_named_together() -> None:
     assert set(verdict.findings[0].effects) == {"heater_ramp", "time_offset"}
     assert verdict.findings[0].group == "timing"
     titles = {known_effects()[name].title for name in ("heater_ramp", "time_offset")}
-    assert set(form_of(verdict.findings[0]).split(" or ")) == titles
+    assert set(form_words(verdict.findings[0]).split(" or ")) == titles
 
 
 # --- ambiguous ------------------------------------------------------------------------------
@@ -254,7 +256,7 @@ def test_effect_that_another_makes_superfluous_is_dropped() -> None:
     verdict = verdict_on(replace(found, end=both))
     assert verdict.kind == "named", verdict.reasons
     assert verdict.search.end.effects == ("k_T",)
-    rows = candidates(verdict.search, verdict, final_fits(verdict, None))
+    rows = candidate_records(verdict.search, verdict, final_fits(verdict, None))
     (row,) = [row for row in rows if row.free == {"k_T": ["slope_1_K"]}]
     assert row.rejected == ""
 

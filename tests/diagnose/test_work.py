@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 from small import base_of, study, truth_of
 
-from pyrofit.diagnose.base.descent import descend
+from pyrofit.diagnose.base.descent import descend_chi_square
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import model_of
 from pyrofit.diagnose.base.work import within_work
@@ -15,7 +15,7 @@ from pyrofit.diagnose.settings import SETTINGS
 def fitted() -> FittedModel:
     base = base_of(study())
     model = model_of(base, {})
-    return FittedModel(model, descend(model, truth_of(base, {}), enough=1e9))
+    return FittedModel(model, descend_chi_square(model, truth_of(base, {}), enough=1e9))
 
 
 def test_run_with_more_steps_than_the_bound_does_not_finish() -> None:

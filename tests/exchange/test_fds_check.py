@@ -15,11 +15,11 @@ from pyrofit.cli import main
 from pyrofit.config import Study, read_study
 from pyrofit.external.fds import find_fds
 from pyrofit.results.files import Results
-from pyrofit.show.parts import Part
+from pyrofit.show.parts import Passage
 from pyrofit_exchange import fds_page
 from pyrofit_exchange.fds.agreement import levels, slab_agreement
-from pyrofit_exchange.fds.check import check
-from pyrofit_exchange.fds.export import Written, decks, slab_curve
+from pyrofit_exchange.fds.check import check_decks
+from pyrofit_exchange.fds.export import WrittenDeck, decks, slab_curve
 from pyrofit_exchange.fds.read import read_devc, read_tga
 from pyrofit_exchange.fds.run import version_text
 from pyrofit_exchange.fds.versions import OLD, FdsError
@@ -42,7 +42,7 @@ def chosen(study: Study) -> ParameterSet:
 
 
 @pytest.fixture(scope="module")
-def written(study: Study, chosen: ParameterSet) -> list[Written]:
+def written(study: Study, chosen: ParameterSet) -> list[WrittenDeck]:
     return decks(study, chosen, OLD)
 
 
@@ -51,13 +51,13 @@ def run(
 ) -> tuple[list[dict[str, object]], str]:
     """Check a study; return the entries and what was told."""
     told: list[str] = []
-    check(study, chosen, fds, folder, told.append, limit_s)
+    check_decks(study, chosen, fds, folder, told.append, limit_s)
     return json.loads((folder / "check.json").read_text()), "\n".join(told)
 
 
 @pytest.mark.parametrize("version", ["6.7.4", "6.11.1"])
 def test_a_complete_run_is_compared(
-    version: str, study: Study, chosen: ParameterSet, written: list[Written], tmp_path: Path
+    version: str, study: Study, chosen: ParameterSet, written: list[WrittenDeck], tmp_path: Path
 ) -> None:
     fds = install(tmp_path / "a folder with spaces", written, "success", version)
     entries, _ = run(study, chosen, fds, tmp_path)
@@ -73,7 +73,7 @@ def test_a_complete_run_is_compared(
 
 
 def test_a_rate_that_is_off_by_one_percent_differs_by_that(
-    study: Study, chosen: ParameterSet, written: list[Written], tmp_path: Path
+    study: Study, chosen: ParameterSet, written: list[WrittenDeck], tmp_path: Path
 ) -> None:
     fds = install(tmp_path, written, "success", factor=1.01)
     entries, _ = run(study, chosen, fds, tmp_path)
@@ -87,7 +87,7 @@ def test_a_rate_that_is_off_by_one_percent_differs_by_that(
 
 @pytest.mark.parametrize("mode", FAILED)
 def test_a_run_that_failed_is_recorded_in_spite_of_its_exit_status(
-    mode: str, study: Study, chosen: ParameterSet, written: list[Written], tmp_path: Path
+    mode: str, study: Study, chosen: ParameterSet, written: list[WrittenDeck], tmp_path: Path
 ) -> None:
     entries, told = run(study, chosen, install(tmp_path, written, mode), tmp_path)
     assert len(entries) == len(written)
@@ -99,7 +99,7 @@ def test_a_run_that_failed_is_recorded_in_spite_of_its_exit_status(
 
 
 def test_a_run_that_hangs_is_killed_with_what_it_started(
-    study: Study, chosen: ParameterSet, written: list[Written], tmp_path: Path
+    study: Study, chosen: ParameterSet, written: list[WrittenDeck], tmp_path: Path
 ) -> None:
     few = study.model_copy(update={"experiments": dict(list(study.experiments.items())[:1])})
     begin = time.monotonic()
@@ -127,7 +127,7 @@ def test_a_missing_binary_is_refused(
 
 
 def test_fds_is_found_by_its_variable_and_on_the_path(
-    written: list[Written], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    written: list[WrittenDeck], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     path = install(tmp_path / "with a space", written, "success", "6.8.0")
     monkeypatch.setenv("PYROFIT_FDS", str(path))
@@ -201,7 +201,7 @@ def test_burn_out_that_is_late_differs() -> None:
 
 
 def test_the_command_draws_what_the_report_shows(
-    written: list[Written], study: Study, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    written: list[WrittenDeck], study: Study, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     fds = install(tmp_path / "a bin", written, "success", "6.8.0", factor=1.01)
     monkeypatch.setenv("PYROFIT_FDS", str(fds))
@@ -211,7 +211,7 @@ def test_the_command_draws_what_the_report_shows(
     assert fds_page.PAGE.exists(study, results)
     part = fds_page.PAGE.section(study, results)
     shown = part.parts[0]
-    assert isinstance(shown, Part)
+    assert isinstance(shown, Passage)
     assert "FDS 6.8.0, set 'truth'" in shown.text
     rows = [row for body in shown.bodies for row in body["rows"]]
     assert len(rows) == len(json.loads(results.fds("check.json").read_text()))

@@ -13,7 +13,7 @@ from pyrofit.cli import main
 from pyrofit.experiments import Tga
 from pyrofit.model.accuracy import Accuracy
 from pyrofit.model.material import Material
-from pyrofit_exchange.fds.export import text_of
+from pyrofit_exchange.fds.export import text_of_file
 from pyrofit_exchange.fds.imported import import_fds
 from pyrofit_exchange.fds.predicted import predict_heated
 from pyrofit_exchange.fds.versions import NEW, OLD, FdsError
@@ -65,7 +65,7 @@ def test_what_is_not_taken_over_is_named() -> None:
 
 
 def test_an_export_that_is_imported_loses_mass_as_before() -> None:
-    text = text_of(deck_of(base(), "tga_10K"), [])
+    text = text_of_file(deck_of(base(), "tga_10K"), [])
     material = Material.model_validate(imported(text, old=True))
     experiment, T = Tga(kind="tga", heating_rate_K_min=10.0), np.arange(300.0, 800.0, 2.0)
     before, after = (

@@ -12,7 +12,7 @@ from pyrofit.experiments import Cone, Tga
 from pyrofit.model.accuracy import Accuracy
 from pyrofit.model.material import Material
 from pyrofit.model.slab import SlabExperiment
-from pyrofit_exchange.fds.export import text_of
+from pyrofit_exchange.fds.export import text_of_file
 from pyrofit_exchange.fds.imported import import_fds
 from pyrofit_exchange.fds.predicted import predict_heated
 from pyrofit_exchange.fds.versions import NEW, OLD
@@ -100,7 +100,7 @@ def test_order_and_depth_are_read_with_the_default_of_fds() -> None:
 
 
 def test_an_export_that_is_imported_burns_as_before() -> None:
-    text = text_of(deck_of(burning(), "tga_10K"), [])
+    text = text_of_file(deck_of(burning(), "tga_10K"), [])
     material = Material.model_validate(import_fds(text, "x.fds", OLD).material)
     experiment = Tga(kind="tga", heating_rate_K_min=10.0, oxygen=AIR)
     T = np.arange(300.0, 1000.0, 2.0)

@@ -15,9 +15,9 @@ from decks import base, deck_of
 from numpy.typing import NDArray
 
 from pyrofit.model.slab import SlabExperiment
-from pyrofit_exchange.fds.export import text_of
+from pyrofit_exchange.fds.export import text_of_file
 from pyrofit_exchange.fds.parse import read_namelists
-from pyrofit_exchange.fds.predicted import Predicted
+from pyrofit_exchange.fds.predicted import PredictedByPyrofit
 
 HERE = Path(__file__).parent / "data" / "run"
 NAMES = ("T_A", "E_A", "T_B", "E_B", "w_A", "rho_a", "k_a", "cp_a", "eps_a", "dh")
@@ -86,8 +86,8 @@ def ours(name: str) -> Read:
     of = Base(base().material, {"x": slab}, dict(zip(NAMES, values, strict=True)))
     time = np.arange(0.5, 1500.0)
     warm, none = np.full(time.shape, 500.0), np.zeros(time.shape)
-    like = Predicted(time, none, warm, warm, none, 1430.0, 1500.0)
-    return read(text_of(deck_of(having(replace(of), effects), "x", like=like), []))
+    like = PredictedByPyrofit(time, none, warm, warm, none, 1430.0, 1500.0)
+    return read(text_of_file(deck_of(having(replace(of), effects), "x", like=like), []))
 
 
 def plain(keys: Keys, leave_out: tuple[str, ...]) -> dict[str, list[Any]]:

@@ -13,7 +13,7 @@ from pyrofit.model.accuracy import Accuracy
 from pyrofit.model.material import Material
 from pyrofit.simulate import simulate_gasification
 from pyrofit.solver.curves import Request
-from pyrofit_exchange.fds.layers import Layer
+from pyrofit_exchange.fds.layers import FdsLayer
 from pyrofit_exchange.fds.namelists import write_all
 from pyrofit_exchange.fds.parse import read_namelists
 from pyrofit_exchange.fds.predicted import predict_slab
@@ -136,7 +136,7 @@ def test_a_layer_thinner_than_two_cells_is_left_out_by_name() -> None:
 )
 @pytest.mark.parametrize("has_foil", [False, True])
 def test_layers_end_halfway_between_nodes(sizes: list[float], has_foil: bool) -> None:
-    grid = grid_of([Layer({"a": 1.0}, size) for size in sizes], has_foil)
+    grid = grid_of([FdsLayer({"a": 1.0}, size) for size in sizes], has_foil)
     assert grid.nodes <= MOST
     dz = grid.depth_m / (grid.nodes - 1)
     inner = np.array(grid.fronts_m[1:])

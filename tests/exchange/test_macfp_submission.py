@@ -8,7 +8,7 @@ import pytest
 
 from pyrofit.cli import main
 from pyrofit.config import read_study
-from pyrofit_exchange.macfp.numeric import numeric
+from pyrofit_exchange.macfp.numeric import numeric_material
 from pyrofit_exchange.macfp.predict import WOOD_CASES, material, simulate_case
 from pyrofit_exchange.macfp.read import read_set
 from pyrofit_exchange.macfp.readme import absent_parts
@@ -110,7 +110,7 @@ def test_rules_of_the_guidelines_are_minded(
 
 def test_values_take_the_place_of_parameters() -> None:
     study = read_study(SMOKE)
-    of, notes = numeric(study.material, study.true_values())
+    of, notes = numeric_material(study.material, study.true_values())
     assert notes == []
     assert of.components["polymer"].specific_heat_J_kgK == 2100.0
     assert of.reactions["pyrolysis"].E_J_mol == 190e3

@@ -22,7 +22,7 @@ from pyrofit_exchange.fds.predicted import predict_heated
 from pyrofit_exchange.fitted_forms import power_law, quadratic
 from pyrofit_exchange.gpyro.data import Data, heated_data, slab_data
 from pyrofit_exchange.programs import strongest
-from pyrofit_exchange.spyro import Curve, ignition, ramp
+from pyrofit_exchange.spyro import ReferenceTest, ignition, ramp
 from pyrofit_exchange.steps import steps_of
 from pyrofit_exchange.thermakin.components import Components, component_file
 from pyrofit_exchange.thermakin.conditions import heated_conditions, slab_conditions
@@ -228,7 +228,7 @@ def test_forms_are_exact_where_they_can_be() -> None:
 
 def test_a_reference_curve_begins_at_ignition_and_holds_all_heat() -> None:
     of = predicted(base(), "capa_60")
-    curve = Curve("capa_60", 6e4, 0.0058, of.time_s, of.rate)
+    curve = ReferenceTest("capa_60", 6e4, 0.0058, of.time_s, of.rate)
     points = [(float(str(p.items["T"])), float(str(p.items["F"]))) for p in ramp(curve, "Q", 25e6)]
     t, q = np.array(points).T
     assert t[0] == 0.0

@@ -20,10 +20,10 @@ from pyrofit.errors import StudyError
 from pyrofit.estimate.problem import Problem
 from pyrofit.plugins import use_plugins
 from pyrofit.results.files import Results
-from pyrofit_explore.describe import describe
-from pyrofit_explore.fit import fit
-from pyrofit_explore.model import model_of
-from pyrofit_explore.save import save
+from pyrofit_explore.describe import described_study
+from pyrofit_explore.fit import descend_and_tell
+from pyrofit_explore.model import pose_model
+from pyrofit_explore.save import save_state
 from pyrofit_explore.session import Session, State, session_of, state_of
 from pyrofit_explore.sets import named_sets
 
@@ -98,7 +98,7 @@ def test_an_effect_at_null_leaves_the_curves_and_elsewhere_changes_them(session:
 
 def test_curves_with_an_effect_are_those_of_a_study_with_it(session: Session) -> None:
     changed = pf.read_study(session.study, effects={"flux_spread": {"spread": 0.2}})
-    other = model_of(changed, session.measurements)
+    other = pose_model(changed, session.measurements)
     model, simulated = session.simulate(State({**TRUTH, **SPREAD}, ("flux_spread",)))
     values = session.values(model, State(TRUTH))
     for mine, theirs in zip(simulated.models, other.simulate(values).models, strict=True):
@@ -132,7 +132,7 @@ def test_a_wrong_state_is_told(session: Session, given: dict[str, Any], words: s
 def test_a_failing_run_is_told_and_leaves_the_other_curves(session: Session) -> None:
     accuracy = session.study.accuracy.model_copy(update={"most_steps": 3})
     study = session.study.model_copy(update={"accuracy": accuracy})
-    base = model_of(study, session.measurements)
+    base = pose_model(study, session.measurements)
     other = Session(study, session.measurements, base, {}, [])
     found = other.curves(State(TRUTH))
     assert set(found["failed"]) == {"slab_25", "slab_60"}
@@ -144,7 +144,7 @@ def test_a_failing_run_is_told_and_leaves_the_other_curves(session: Session) -> 
 
 def fitted(session: Session, start: Mapping[str, float], ticked: list[str]) -> dict[str, float]:
     sent: list[Mapping[str, Any]] = []
-    fit(session, State(start), ticked, sent.append)
+    descend_and_tell(session, State(start), ticked, sent.append)
     assert "has ended" in sent[-1]["said"]
     return {**start, **sent[-1]["values"]}
 
@@ -173,19 +173,19 @@ def test_a_page_that_is_gone_ends_its_fit(session: Session) -> None:
         raise BrokenPipeError
 
     with pytest.raises(BrokenPipeError):
-        fit(session, State(TRUTH), ["k"], gone)
+        descend_and_tell(session, State(TRUTH), ["k"], gone)
     assert len(calls) == 1
 
 
 def test_a_fit_needs_a_ticked_parameter(session: Session) -> None:
     with pytest.raises(StudyError, match="no parameter is ticked"):
-        fit(session, State(TRUTH), [], lambda message: None)
+        descend_and_tell(session, State(TRUTH), [], lambda message: None)
 
 
 def test_a_saved_study_has_the_same_curves(session: Session, tmp_path: Path) -> None:
     state = State({**TRUTH, "k": 0.25, **SPREAD}, ("flux_spread",))
     ticked = ["k", "eps", "flux_spread_spread"]
-    study, values = save(session, state, ticked, "mine", tmp_path)
+    study, values = save_state(session, state, ticked, "mine", tmp_path)
     again = session_of(study, tmp_path, str(values), noise=False)
     assert set(again.study.imp.estimate) == set(ticked)
     assert again.study.kinetics is None or again.study.kinetics.estimate == ()
@@ -202,7 +202,7 @@ def test_a_saved_study_keeps_its_measurements(
 ) -> None:
     numbers = {"swelling_step": 0.5, "swelling_temperature_K": 560.0, "swelling_width_K": 20.0}
     state = State({**TRUTH, **numbers}, ("swelling",))
-    study, values = save(session, state, ticked, "mine", tmp_path)
+    study, values = save_state(session, state, ticked, "mine", tmp_path)
     again = session_of(study, tmp_path, str(values), noise=False)
     for key, frame in session.measurements.items():
         pd.testing.assert_frame_equal(again.measurements[key], frame, rtol=1e-9)
@@ -213,11 +213,11 @@ def test_a_saved_study_keeps_its_measurements(
 
 
 def test_a_saved_study_writes_over_nothing(session: Session, tmp_path: Path) -> None:
-    save(session, State(TRUTH), ["k"], "mine", tmp_path)
+    save_state(session, State(TRUTH), ["k"], "mine", tmp_path)
     with pytest.raises(StudyError, match="there already"):
-        save(session, State(TRUTH), ["k"], "mine", tmp_path)
+        save_state(session, State(TRUTH), ["k"], "mine", tmp_path)
     with pytest.raises(StudyError, match="letters, digits and _"):
-        save(session, State(TRUTH), ["k"], "../mine", tmp_path)
+        save_state(session, State(TRUTH), ["k"], "../mine", tmp_path)
 
 
 def test_twenty_curves_take_little_of_a_processor(twenty: Study) -> None:
@@ -258,7 +258,7 @@ def test_bands_of_the_posterior_stand_at_the_drawn_points(session: Session) -> N
     time_s = np.linspace(0.0, 1600.0, 81)
     about = {"experiment": "slab_25", "signal": "mlr", "time_s": time_s}
     bands = pd.DataFrame({**about, "low": 1e-6 * time_s, "high": 2e-6 * time_s})
-    signals = {s["id"]: s for s in describe(session.base, bands)["signals"]}
+    signals = {s["id"]: s for s in described_study(session.base, bands)["signals"]}
     low, high = np.array(signals["slab_25/mlr"]["band"])
     at = np.array(signals["slab_25/mlr"]["x"])
     np.testing.assert_allclose(low, 1e-3 * at, rtol=1e-4)  # shown in g/(m2 s)
@@ -354,7 +354,7 @@ def test_effects_quantities_and_costs_of_an_own_folder_are_explored(
         assert not np.array_equal(before[thickness], after[thickness])
         costs = own.curves(on)["numbers"]["costs"]
         assert costs["OWN"] > 2.0 * own.curves(base)["numbers"]["costs"]["OWN"]
-        study, values = save(own, on, ["k"], "mine", tmp_path)
+        study, values = save_state(own, on, ["k"], "mine", tmp_path)
         again = session_of(study, tmp_path, str(values), noise=False)
         saved = again.curves(State(again.sets[str(values)]))["numbers"]["costs"]
         assert saved == pytest.approx(costs, rel=1e-6)

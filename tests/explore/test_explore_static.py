@@ -12,7 +12,7 @@ import pytest
 from pyrofit.cli import main
 from pyrofit.errors import StudyError
 from pyrofit_explore.session import Session, State, stacked
-from pyrofit_explore.static import MOST_BYTES, strongest, write_static
+from pyrofit_explore.static import MOST_BYTES, strongest_pair, write_static
 
 
 @pytest.fixture(scope="module")
@@ -58,7 +58,7 @@ def test_curves_of_the_grid_are_those_of_the_study(session: Session, written: Pa
 
 
 def test_the_strongest_parameters_are_sliders_by_default(session: Session) -> None:
-    found = strongest(session.base, session.study.true_values())
+    found = strongest_pair(session.base, session.study.true_values())
     assert "T_p" in found
     assert len(found) == 2
 

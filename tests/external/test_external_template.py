@@ -12,9 +12,9 @@ from pyrofit.config import as_study
 from pyrofit.config.expand.programs import externals
 from pyrofit.errors import StudyError
 from pyrofit.experiments.external.simulate import mean
-from pyrofit.external.filled import filled, placeholder_values
-from pyrofit.external.output import OutputError, Record, read_output, to_number
-from pyrofit.external.template import bytes_of, fill, text_of
+from pyrofit.external.filled import filled_input, placeholder_values
+from pyrofit.external.output import OutputError, WrittenCurve, read_output, to_number
+from pyrofit.external.template import bytes_of, fill_template, text_of
 from pyrofit.model.expressions import names_of, value_of_expression
 from pyrofit.model.program import Program, Reading
 from pyrofit.quantities import known_quantities
@@ -24,12 +24,12 @@ MLR = known_quantities()["mlr"]
 
 def test_a_number_that_is_read_back_has_every_bit() -> None:
     for x in np.random.default_rng(1).lognormal(sigma=20.0, size=200):
-        assert float(fill("#x#", {"x": float(x)})) == x
+        assert float(fill_template("#x#", {"x": float(x)})) == x
 
 
 def test_bytes_that_are_no_text_stay() -> None:
     content = b"! \xe9\xff #k#\r\n"
-    assert bytes_of(fill(text_of(content), {"k": 0.5})) == b"! \xe9\xff 0.5\r\n"
+    assert bytes_of(fill_template(text_of(content), {"k": 0.5})) == b"! \xe9\xff 0.5\r\n"
 
 
 def test_the_value_of_an_expression() -> None:
@@ -178,24 +178,24 @@ def test_a_record_against_temperature_takes_no_key_of_time(
 def test_another_template_file_program_or_number_is_another_run(tmp_path: Path) -> None:
     write(tmp_path)
     values = {"height": 9.0, "fall": 0.02}
-    first = filled(posed(tmp_path, study()), values).key
-    assert filled(posed(tmp_path, study(time_limit_s=5, keep_failed=0)), values).key == first
+    first = filled_input(posed(tmp_path, study()), values).key
+    assert filled_input(posed(tmp_path, study(time_limit_s=5, keep_failed=0)), values).key == first
     others = [
-        filled(posed(tmp_path, study()), {**values, "fall": 0.02 + 1e-15}).key,
-        filled(posed(tmp_path, study(environment={"A": "1"})), values).key,
-        filled(posed(tmp_path, study(command="python3 decay.py decay.inp")), values).key,
+        filled_input(posed(tmp_path, study()), {**values, "fall": 0.02 + 1e-15}).key,
+        filled_input(posed(tmp_path, study(environment={"A": "1"})), values).key,
+        filled_input(posed(tmp_path, study(command="python3 decay.py decay.inp")), values).key,
     ]
     (tmp_path / "decay.py").write_text("# edited\n")
-    others.append(filled(posed(tmp_path, study()), values).key)
+    others.append(filled_input(posed(tmp_path, study()), values).key)
     write(tmp_path, "hangs")
-    others.append(filled(posed(tmp_path, study()), values).key)
+    others.append(filled_input(posed(tmp_path, study()), values).key)
     assert len({first, *others}) == 6
 
 
 # --- output ---------------------------------------------------------------------------------
 
 
-def read(folder: Path, text: str, **reading: Any) -> Record:
+def read(folder: Path, text: str, **reading: Any) -> WrittenCurve:
     (folder / "rate.csv").write_text(text)
     return read_output(folder, Reading.model_validate({**READS, **reading}), MLR)
 
@@ -258,7 +258,7 @@ def test_exponents_of_fortran() -> None:
 
 
 def test_a_bin_is_the_exact_mean_of_the_broken_line() -> None:
-    record = Record(np.array([0.0, 1.0, 4.0]), np.array([0.0, 2.0, 2.0]))
+    record = WrittenCurve(np.array([0.0, 1.0, 4.0]), np.array([0.0, 2.0, 2.0]))
     assert mean(record, np.array([1.0]), 2.0) == pytest.approx([(1.0 + 2.0) / 2.0])
     fine = np.linspace(0.3, 2.9, 20001)
     middle = 0.5 * (fine[1:] + fine[:-1])

@@ -12,7 +12,7 @@ from pyrofit.cli import main
 from pyrofit.errors import DataError
 from pyrofit_files.examined import Examined
 from pyrofit_files.names import label_of
-from pyrofit_files.report import examine_folder, summary
+from pyrofit_files.report import counts, examine_folder
 
 T = np.arange(300.0, 900.0, 2.0)
 TIME = (T - 300.0) * 6.0
@@ -208,7 +208,7 @@ def test_every_measured_file_of_the_data_base_is_classified() -> None:
     if not (folder / "Wood").is_dir():
         pytest.skip("the data folder holds the files of the studies alone")
     files = examine_folder(folder)
-    assert all(seen.classified for seen in files), summary(files)
+    assert all(seen.classified for seen in files), counts(files)
     faults = {(s.path.stem, f.check) for s in files for f in s.findings if f.weight == "fault"}
     assert {
         ("LCPP_Cone_65kW_2", "copy"),
@@ -245,7 +245,7 @@ def test_kinds_are_those_of_the_content_where_names_tell_none(tmp_path: Path) ->
     assert seen["BOARD_5.csv"].label.heating_K_min == pytest.approx(5.0)
     faults = [f.check for of in seen.values() for f in of.findings if f.weight == "fault"]
     assert set(faults) == {"copy", "columns"}  # all slabs here have one mass, two files no times
-    assert "9 of 11 files" in summary(list(seen.values()))[0]
+    assert "9 of 11 files" in counts(list(seen.values()))[0]
 
 
 def test_a_name_of_another_sort_of_test_is_a_fault(tmp_path: Path) -> None:
@@ -265,7 +265,7 @@ def test_files_of_instruments_are_named_with_a_way_out(tmp_path: Path) -> None:
     said = {seen.path.name: f.text for seen in files for f in seen.findings}
     assert "save the sheet with the table as CSV" in said["b.xlsx"]
     assert "NETZSCH Proteus" in said["c.ngb-ss3"]
-    assert summary(files)[0].startswith("1 of 3 files classified")
+    assert counts(files)[0].startswith("1 of 3 files classified")
 
 
 def test_form_lists_all_and_its_status_tells_faults(

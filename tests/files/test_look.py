@@ -7,7 +7,7 @@ import pytest
 
 import pyrofit as pf
 from pyrofit.cli import main
-from pyrofit_files.looked import derivative, look
+from pyrofit_files.looked import derivative, look_at
 
 
 def tga(path: Path, centre_K: float, unit: str = "[K]") -> Path:
@@ -30,27 +30,27 @@ def slab(path: Path) -> Path:
 
 def test_files_with_numbers_at_the_end_are_repeats_of_one_test(tmp_path: Path) -> None:
     paths = [tga(tmp_path / f"Lab_TGA_N2_10K_{i}.csv", 620.0 + i) for i in (1, 2)]
-    (test,) = look(paths).tests
+    (test,) = look_at(paths).tests
     assert (test.name, test.kind, len(test.records)) == ("Lab_TGA_N2_10K", "tga", 2)
     assert test.loses
     assert test.disagreements == []
 
 
 def test_masses_of_heated_samples_are_shown_over_the_first_one(tmp_path: Path) -> None:
-    (test,) = look([tga(tmp_path / "Lab_TGA_N2_10K_1.csv", 620.0)]).tests
+    (test,) = look_at([tga(tmp_path / "Lab_TGA_N2_10K_1.csv", 620.0)]).tests
     assert test.values(test.records[0][1])[0] == pytest.approx(1.0)
 
 
 def test_repeats_that_disagree_are_told(tmp_path: Path) -> None:
     paths = [tga(tmp_path / f"Lab_TGA_N2_10K_{i}.csv", 620.0 + 0.5 * i) for i in (1, 2)]
     paths.append(tga(tmp_path / "Lab_TGA_N2_10K_3.csv", 660.0))
-    said = "\n".join(look(paths).lines())
+    said = "\n".join(look_at(paths).lines())
     assert "Lab_TGA_N2_10K_3 differs from its repeats: the mass fraction changes" in said
     assert "Lab_TGA_N2_10K_1 differs" not in said
 
 
 def test_each_column_is_told_with_its_unit(tmp_path: Path) -> None:
-    (line, *_) = look([slab(tmp_path / "Lab_Gasification_N2_50kW_1.csv")]).lines()
+    (line, *_) = look_at([slab(tmp_path / "Lab_Gasification_N2_50kW_1.csv")]).lines()
     assert "gasification; mass per area from 'Mass' [g], 121 points" in line
     assert "back temperature from 'Back temperature' [K], 121 points" in line
 

@@ -10,7 +10,7 @@ from pyrofit.data.csvfile import read_table
 from pyrofit.errors import DataError
 from pyrofit.new_study import draft
 from pyrofit.new_study.plan import part_of
-from pyrofit.new_study.repeats import grouped
+from pyrofit.new_study.repeats import tests_of_names
 
 R = 8.314462618
 RATES = 5.0, 10.0, 20.0
@@ -83,11 +83,11 @@ def test_a_line_of_megabytes_is_told_with_its_file(tmp_path: Path) -> None:
 
 
 def test_repeats_of_a_hold_are_one_program_of_four(tmp_path: Path) -> None:
-    runs = [draft.measured("tga", ramp(tmp_path, rate)) for rate in RATES]
+    runs = [draft.read_experiment("tga", ramp(tmp_path, rate)) for rate in RATES]
     for n in (1, 2, 3):
         path = hold(tmp_path / f"board_563Kiso_R{n}.csv", 563.0, 0.4)
-        runs.append(draft.measured("tga", path))
+        runs.append(draft.read_experiment("tga", path))
     assert [run.number for run in runs[3:]] == pytest.approx([10.0] * 3, rel=0.03)
-    tests = grouped(runs)
+    tests = tests_of_names(runs)
     assert len(tests) == 4
     assert len(part_of("kinetics", tests).held_out) == 1

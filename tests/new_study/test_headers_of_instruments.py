@@ -9,7 +9,7 @@ from headers_of_instruments import EXPORTS, Export
 
 from pyrofit.experiments import measurable
 from pyrofit.new_study.divisor import divisor_of, is_told
-from pyrofit.new_study.draft import Measured, measured
+from pyrofit.new_study.draft import MeasuredFile, read_experiment
 
 KELVIN = np.arange(300.0, 900.0, 10.0)
 TIME = 6.0 * (KELVIN - 300.0)
@@ -58,7 +58,7 @@ COLUMNS = {
 }
 
 
-def read(export: Export, folder: Path) -> Measured:
+def read(export: Export, folder: Path) -> MeasuredFile:
     """Return the record of a file as the program writes it."""
     columns = [COLUMNS[name] for name in export.columns.split()]
     rows = (
@@ -66,10 +66,10 @@ def read(export: Export, folder: Path) -> Measured:
         for row in zip(*columns, strict=True)
     )
     (folder / "a.csv").write_text("\n".join([export.above, *rows]) + "\n", encoding="utf-8")
-    return measured(export.kind, folder / "a.csv")
+    return read_experiment(export.kind, folder / "a.csv")
 
 
-def asked(run: Measured) -> Iterator[str]:
+def asked(run: MeasuredFile) -> Iterator[str]:
     """Yield what the study marks with CHANGE."""
     if run.lacks == "time" and run.told not in ("record", "file"):
         yield "heating rate"

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pyrofit.data.stated import stated_in
-from pyrofit.new_study.draft import Measured
+from pyrofit.new_study.draft import MeasuredFile
 from pyrofit.new_study.write import drafted
 
 KELVIN = np.arange(300.0, 900.0, 2.0)
@@ -16,7 +16,7 @@ CELSIUS = KELVIN - 273.15
 RATE = 200.0 * np.exp(-(((TIME - 1200.0) / 300.0) ** 2))
 
 
-def read(tmp_path: Path, kind: str, header: str, *columns: np.ndarray) -> Measured:
+def read(tmp_path: Path, kind: str, header: str, *columns: np.ndarray) -> MeasuredFile:
     """Return the record of a file with semicolons and decimal commas."""
     rows = [";".join(f"{x:.4f}".replace(".", ",") for x in row) for row in zip(*columns)]  # noqa: B905
     (tmp_path / "a.csv").write_text("\n".join([header, *rows]) + "\n", encoding="utf-8")

@@ -43,7 +43,7 @@ def ramp(path: Path, K_min: float, times: bool = True, in_one_s: float = 1.0) ->
 def test_name_of_a_record_without_times_is_no_more_than_a_hint(
     name: str, number: float, words: str, tmp_path: Path
 ) -> None:
-    run = draft.measured("tga", ramp(tmp_path / f"{name}.csv", 10.0, times=False))
+    run = draft.read_experiment("tga", ramp(tmp_path / f"{name}.csv", 10.0, times=False))
     assert run.number == number
     assert number_comment(run).startswith(words)
     assert f"heating_rate_K_min: {number:g} # CHANGE" in drafted("x", {"tga": [run.path]})[0]
@@ -54,7 +54,7 @@ def test_flux_of_a_name_is_marked(name: str, tmp_path: Path) -> None:
     path = tmp_path / f"{name}.csv"
     t = np.arange(0.0, 300.0, 5.0)
     np.savetxt(path, np.c_[t, 5.0 + 0 * t], "%g", ",", header="Time (s),MLR (g/s/m2)", comments="")
-    run = draft.measured("gasification", path)
+    run = draft.read_experiment("gasification", path)
     assert "CHANGE" in number_comment(run)
     if name in ("test7", "plate_6mm"):
         assert run.number == 50.0
@@ -81,7 +81,7 @@ def test_temperature_of_a_hold_in_a_name_is_no_heating_rate(
     path = tmp_path / f"{name}.csv"
     columns, header = np.c_[t, kelvin, np.exp(-t / 3000.0)], "Time (s),Temp (K),Mass (1)"
     np.savetxt(path, columns, "%.5f", ",", header=header, comments="")
-    run = draft.measured("tga", path)
+    run = draft.read_experiment("tga", path)
     assert run.number == (12.0 if heated_s else 10.0)
     assert not other_number(run)
     assert number_comment(run) == (
@@ -97,7 +97,7 @@ def test_temperature_of_a_hold_in_a_name_is_no_heating_rate(
 def test_times_in_another_unit_than_the_header_says_are_told(
     name: str, in_one_s: float, way: str, tmp_path: Path
 ) -> None:
-    run = draft.measured("tga", ramp(tmp_path / f"{name}.csv", 10.0, in_one_s=in_one_s))
+    run = draft.read_experiment("tga", ramp(tmp_path / f"{name}.csv", 10.0, in_one_s=in_one_s))
     assert run.number == pytest.approx(10.0 * in_one_s, rel=0.01)
     (said,) = other_number(run)
     assert "its name says 10 K/min" in said
@@ -106,10 +106,10 @@ def test_times_in_another_unit_than_the_header_says_are_told(
 
 
 def test_other_rate_than_the_name_says_is_told(tmp_path: Path) -> None:
-    assert other_number(draft.measured("tga", ramp(tmp_path / "a_10K.csv", 10.4))) == []
+    assert other_number(draft.read_experiment("tga", ramp(tmp_path / "a_10K.csv", 10.4))) == []
     # A number alone is no rate by itself.
-    assert other_number(draft.measured("tga", ramp(tmp_path / "a_12.csv", 20.0))) == []
-    (said,) = other_number(draft.measured("tga", ramp(tmp_path / "a_10K_R2.csv", 20.0)))
+    assert other_number(draft.read_experiment("tga", ramp(tmp_path / "a_12.csv", 20.0))) == []
+    (said,) = other_number(draft.read_experiment("tga", ramp(tmp_path / "a_10K_R2.csv", 20.0)))
     assert said == "the record shows a heating rate of 20 K/min, its name says 10 K/min"
 
 
@@ -121,7 +121,9 @@ def test_drift_of_a_hold_is_no_heating_rate(ramped: bool, tmp_path: Path) -> Non
     path = tmp_path / "board_563Kiso.csv"
     header = "Time (s),Temperature (K),Mass (mg)"
     np.savetxt(path, np.c_[t, T, 5.0 - t / 4e3], "%.4f", ",", header=header, comments="")
-    hold = draft.measured("tga", path)
+    hold = draft.read_experiment("tga", path)
     assert (hold.number, hold.told) == (10.0, "record" if ramped else "")
-    ramps = [draft.measured("tga", ramp(tmp_path / f"b_{n:g}K.csv", n)) for n in (5.0, 10.0, 20.0)]
+    ramps = [
+        draft.read_experiment("tga", ramp(tmp_path / f"b_{n:g}K.csv", n)) for n in (5.0, 10.0, 20.0)
+    ]
     assert part_of("kinetics", [hold, *ramps]).held_out == ("b_10K",)

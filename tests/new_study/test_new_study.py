@@ -487,7 +487,7 @@ def test_one_of_two_columns_of_the_same_times_is_taken(
 ) -> None:
     times = [one * MINUTES, other * MINUTES, *[MINUTES / 60.0] * header.count("[h]")]
     write("tga_20K.csv", header, *times, TEMPERATURE_K - 273.15, 5.0 * MASS)
-    run = draft.measured("tga", Path("tga_20K.csv"))
+    run = draft.read_experiment("tga", Path("tga_20K.csv"))
     assert not run.lacks
     assert run.signals[0].columns["time"] == taken
     np.testing.assert_allclose(run.frames["mass_fraction"]["time_s"], 60.0 * MINUTES, rtol=1e-8)
@@ -510,7 +510,7 @@ def test_two_columns_of_different_times_are_asked_for(
 def test_temperature_of_the_sample_comes_before_another(folder: Path) -> None:
     columns = (MINUTES, TEMPERATURE_K - 250.0, TEMPERATURE_K - 273.15, 5.0 * MASS)
     write("tga_10K.csv", "Time (min),Temp. (°C),Sample temp. (°C),Mass (mg)", *columns)
-    run = draft.measured("tga", Path("tga_10K.csv"))
+    run = draft.read_experiment("tga", Path("tga_10K.csv"))
     assert run.signals[0].columns["temperature"] == "Sample temp."
     np.testing.assert_allclose(run.frames["mass_fraction"]["temperature_K"], TEMPERATURE_K)
 
@@ -532,7 +532,7 @@ def test_minutes_are_told_from_seconds_where_most_of_the_record_is_a_hold(folder
         np.r_[MASS, 0.2 + 0 * held],
     )
     write("tga_10K.csv", "Time,Temperature (K),Mass fraction", *columns)
-    (found,) = draft.measured("tga", Path("tga_10K.csv")).signals
+    (found,) = draft.read_experiment("tga", Path("tga_10K.csv")).signals
     assert found.units["time"] == "min"
 
 
@@ -725,7 +725,7 @@ def test_file_of_a_real_laboratory_gives_a_study_that_is_valid(file: str, folder
         files["gasification"] = [Path("slab_25.csv")]
     given = [word for k, paths in files.items() for word in (f"--{k}", *map(str, paths))]
     study = made(*given)
-    run = draft.measured(kind, path)
+    run = draft.read_experiment(kind, path)
     assert (run.number, run.told) == (number, "record" if run.of.stage == "kinetics" else "unit")
     imp = [term for terms in study.imp.costs.values() for term in terms]
     fitted = imp if KINDS[kind].stage == "imp" else study.kinetics.cost
@@ -772,12 +772,14 @@ def test_column_of_a_gas_or_the_apparatus_is_not_taken_for_the_sample(
     write("slab_25.csv", f"Time [s],Mass [g],{header}", SECONDS, 70.0 - SECONDS / 20.0, BACK_K)
     made(f"--{kind}", "slab_25.csv")
     assert "is not used: it belongs to a gas or the apparatus, not to" in capsys.readouterr().out
-    assert [f.quantity for f in draft.measured(kind, Path("slab_25.csv")).signals] == ["mass"]
+    assert [f.quantity for f in draft.read_experiment(kind, Path("slab_25.csv")).signals] == [
+        "mass"
+    ]
 
 
 def test_rate_measured_in_nitrogen_is_that_of_the_sample(folder: Path) -> None:
     write("slab_25.csv", "Time [s],MLR N2 [g/m2/s],T_back N2 probe [K]", SECONDS, 1e3 * MLR, BACK_K)
-    run = draft.measured("gasification", Path("slab_25.csv"))
+    run = draft.read_experiment("gasification", Path("slab_25.csv"))
     assert [f.quantity for f in run.signals] == ["mlr", "back_temperature"]
 
 
@@ -785,17 +787,17 @@ def test_rate_measured_in_nitrogen_is_that_of_the_sample(folder: Path) -> None:
 def test_total_of_the_heat_release_is_no_rate(kind: str, folder: Path) -> None:
     header = "Time [s],Temperature [C],Total Heat Release"
     write("run_25.csv", header, SECONDS, SECONDS, SECONDS)
-    run = draft.measured(kind, Path("run_25.csv"))
+    run = draft.read_experiment(kind, Path("run_25.csv"))
     assert all(header != "Total Heat Release" for f in run.signals for header in f.columns.values())
     assert run.left["Total Heat Release"] == "it is a total over the test, not a rate"
 
 
 def test_derivative_of_the_mass_is_the_rate_of_a_slab_that_has_no_other(folder: Path) -> None:
     write("slab_25.csv", "Time [s],dm/dt (g/s)", SECONDS, 1e3 * MLR * 0.01)
-    run = draft.measured("gasification", Path("slab_25.csv"))
+    run = draft.read_experiment("gasification", Path("slab_25.csv"))
     np.testing.assert_allclose(run.frames["mlr"]["mlr_kg_m2_s"], MLR, rtol=1e-8)
     write("slab_25.csv", "Time [s],dm/dt (g/s),MLR [g/m2/s]", SECONDS, MLR, 1e3 * MLR)
-    (found,) = draft.measured("gasification", Path("slab_25.csv")).signals
+    (found,) = draft.read_experiment("gasification", Path("slab_25.csv")).signals
     assert found.columns["value"] == "MLR"
 
 
@@ -830,7 +832,7 @@ def test_files_that_the_reader_refuses_are_still_to_do(
 
 def test_heating_rate_is_that_of_the_record_where_the_name_says_another(folder: Path) -> None:
     lab(tga="tga_20K.csv")
-    assert draft.measured("tga", Path("tga_20K.csv")).number == pytest.approx(RATE_K_MIN)
+    assert draft.read_experiment("tga", Path("tga_20K.csv")).number == pytest.approx(RATE_K_MIN)
 
 
 BAD = {

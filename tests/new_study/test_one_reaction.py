@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from pyrofit.new_study.draft import kinetics_of
+from pyrofit.new_study.draft import kinetics_limits
 from pyrofit.new_study.one_reaction import Record, one_reaction_describes
 from pyrofit.solver.arrays import FloatArray
 
@@ -56,4 +56,4 @@ def test_records_of_one_shape_at_other_temperatures_are_not_one_reaction() -> No
 
 
 def test_kinetics_without_records_are_not_single() -> None:
-    assert not kinetics_of([]).single
+    assert not kinetics_limits([]).single

@@ -12,7 +12,7 @@ from pyrofit.data.stated import stated_in
 from pyrofit.errors import DataError
 from pyrofit.new_study import draft
 from pyrofit.new_study.plan import part_of
-from pyrofit.new_study.words import gas_line, said
+from pyrofit.new_study.words import lines_on_file, oxygen_words
 from pyrofit.new_study.write import drafted
 
 KELVIN = np.linspace(300.0, 900.0, 201)
@@ -42,7 +42,7 @@ MASSES = {
 @pytest.mark.parametrize(("above", "mass"), MASSES.items())
 def test_initial_mass_of_the_file_is_read(above: str, mass: float | None, tmp_path: Path) -> None:
     path = record(tmp_path / "a.txt", above, "Time (s);Temperature (K);TG (mg)", TIME, KELVIN, MASS)
-    run = draft.measured("tga", path)
+    run = draft.read_experiment("tga", path)
     stated = run.signals[0].stated.mass_kg
     assert stated == (mass if mass is None else pytest.approx(mass))
 
@@ -89,9 +89,11 @@ def test_sign_of_the_heat_flow_is_that_of_the_file(above: str, line: str, tmp_pa
         assert run.frames["heat_flow"]["heat_flow_W_kg"].max() == pytest.approx(2300.0, rel=0.01)
 
 
-def slab(path: Path, above: str) -> draft.Measured:
+def slab(path: Path, above: str) -> draft.MeasuredFile:
     t = np.arange(0.0, 300.0, 5.0)
-    return draft.measured("gasification", record(path, above, "Time (s);MLR (g/s/m2)", t, 5.0 + t))
+    return draft.read_experiment(
+        "gasification", record(path, above, "Time (s);MLR (g/s/m2)", t, 5.0 + t)
+    )
 
 
 def test_flux_of_the_file_comes_before_a_number_in_its_name(tmp_path: Path) -> None:
@@ -104,15 +106,15 @@ def test_flux_of_the_file_comes_before_a_number_in_its_name(tmp_path: Path) -> N
 
 @pytest.mark.parametrize("in_name", [True, False])
 def test_test_in_air_is_told_and_held_out_beside_others(in_name: bool, tmp_path: Path) -> None:
-    def test(name: str, gas: str, K_min: float) -> draft.Measured:
+    def test(name: str, gas: str, K_min: float) -> draft.MeasuredFile:
         above = "A;b\nC;d\nE;f\n" if in_name else f"Purge Gas:;{gas}\nOperator:;a\n"
         columns = 600.0 / K_min * TIME / 60.0, KELVIN, MASS if gas != "air" else MASS - 0.1
         path = tmp_path / (f"{name}_{gas}.txt" if in_name else f"{name}.txt")
         header = "Time (s);Temperature (K);Mass (-)"
-        return draft.measured("tga", record(path, above, header, *columns))
+        return draft.read_experiment("tga", record(path, above, header, *columns))
 
     runs = [test("a", "nitrogen", 10.0), test("b", "air", 10.0)]
-    assert [gas_line(run) != "" for run in runs] == [False, True]
+    assert [oxygen_words(run) != "" for run in runs] == [False, True]
     assert part_of("kinetics", runs).held_out == (runs[1].name,)
     assert part_of("kinetics", runs[1:]).held_out == ()
 
@@ -130,9 +132,9 @@ def test_oxygen_of_a_column_is_that_of_the_gas(
 ) -> None:
     header = f"Time (s);Temperature (K);Mass (-);{column}"
     path = record(tmp_path / "a.txt", "", header, TIME, KELVIN, MASS, values)
-    run = draft.measured("tga", path)
+    run = draft.read_experiment("tga", path)
     assert run.gas == gas
-    assert (gas_line(run) != "") == bool(gas)
+    assert (oxygen_words(run) != "") == bool(gas)
 
 
 @pytest.mark.parametrize(
@@ -151,7 +153,7 @@ def test_change_of_gas_in_a_column_is_told(
     lines = [f"{t};{T};{m};{gases[int(T > 800.0)]}" for t, T, m in rows]
     path = tmp_path / "a.txt"
     path.write_text("\n".join(["Time (s);Temperature (K);Mass (-);Gas", *lines, ""]))
-    run = draft.measured("tga", path)
+    run = draft.read_experiment("tga", path)
     assert (run.gas, run.then_gas) == (gas, then)
 
 
@@ -164,7 +166,7 @@ def test_record_that_starts_below_the_stated_mass_is_told(first: float, tmp_path
     text, (run,), *_ = drafted("x", {"tga": [path]})
     told = "it starts at 96.0 % of the stated initial mass, as after a drying"
     assert (told in text) == (first < 6.0)
-    assert any(told in line for line in said(run)) == (first < 6.0)
+    assert any(told in line for line in lines_on_file(run)) == (first < 6.0)
 
 
 @pytest.mark.parametrize(
@@ -172,7 +174,7 @@ def test_record_that_starts_below_the_stated_mass_is_told(first: float, tmp_path
 )
 def test_area_of_the_file_divides_its_values(line: str, tmp_path: Path) -> None:
     path = record(tmp_path / "a.txt", f"{line}\nUser: a\n", "Time (s);HRR (kW)", TIME, 1.0 + MASS)
-    run = draft.measured("cone", path)
+    run = draft.read_experiment("cone", path)
     expected = 1e3 * (1.0 + MASS) / 0.00884
     frame = run.frames["heat_release_rate"]
     np.testing.assert_allclose(frame["heat_release_rate_W_m2"], expected, rtol=1e-5)

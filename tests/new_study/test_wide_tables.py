@@ -8,7 +8,7 @@ import pytest
 from pyrofit.config import read_study
 from pyrofit.data.csvfile import read_table
 from pyrofit.model.heated import HeatedExperiment
-from pyrofit.new_study.wide_tables import split
+from pyrofit.new_study.wide_tables import split_table
 from pyrofit.new_study.write import init
 
 T = np.linspace(300.0, 800.0, 101)
@@ -58,12 +58,12 @@ def test_rates_as_columns_become_a_test_each(header: str, own: bool, tmp_path: P
 def test_table_that_is_not_clear_stays_one(header: str, tmp_path: Path) -> None:
     columns = [T, T, *(mass(rate) for rate in (3, 5, 10))][-len(header.split(",")) :]
     table = written(tmp_path / "ALL.csv", header, columns)
-    assert split("tga", table, tmp_path) == [table]
+    assert split_table("tga", table, tmp_path) == [table]
 
 
 def test_slabs_are_not_split(tmp_path: Path) -> None:
     table = written(tmp_path / "a.csv", "temperature,rate_3,rate_5", [T, mass(3), mass(5)])
-    assert split("gasification", table, tmp_path) == [table]
+    assert split_table("gasification", table, tmp_path) == [table]
 
 
 def rates_of(study: Path) -> dict[str, float]:
@@ -114,20 +114,20 @@ def test_fluxes_as_columns_become_a_test_each(tmp_path: Path) -> None:
     time, rate = T - T[0], 200.0 * np.exp(-(((T - 500.0) / 80.0) ** 2))
     columns = [time, mass(3), rate, mass(10), 2.0 * rate]
     table = written(tmp_path / "board.csv", header, columns, ";")
-    first, second = split("cone", table, tmp_path)
+    first, second = split_table("cone", table, tmp_path)
     assert [first.name, second.name] == ["board_25kW.csv", "board_50kW.csv"]
     assert read_table(second).columns["HRR"] == pytest.approx(2.0 * rate, abs=1e-3)
 
 
 def test_thermocouples_of_one_test_are_no_tests(tmp_path: Path) -> None:
     table = written(tmp_path / "a.csv", "Time (s),TC back 1 (K),TC back 2 (K)", [T, T, T])
-    assert split("gasification", table, tmp_path) == [table]
+    assert split_table("gasification", table, tmp_path) == [table]
 
 
 def test_heat_flows_keep_their_names(tmp_path: Path) -> None:
     header = "T (K),DSC 5 K/min (W/g),DSC 10 K/min (W/g)"
     table = written(tmp_path / "a.csv", header, [T, mass(5) - 60.0, mass(10) - 60.0])
-    first, _ = split("dsc", table, tmp_path)
+    first, _ = split_table("dsc", table, tmp_path)
     assert list(read_table(first).columns) == ["Time", "Temperature", "DSC"]
 
 
@@ -168,4 +168,4 @@ def test_rows_without_a_number_of_their_test_stay_one_table(tmp_path: Path) -> N
     path = written(
         tmp_path / "all.csv", "Time (s),Temperature (K),Mass (%)", list(np.vstack([own, own]).T)
     )
-    assert split("tga", path, tmp_path) == [path]
+    assert split_table("tga", path, tmp_path) == [path]

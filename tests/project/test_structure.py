@@ -48,7 +48,7 @@ ORDER = [
     {"analysis"},
     {"stages"},
     {"new_study"},
-    {"ready"},
+    {"doctor"},
     {"show"},
     {"work of steps"},
     {"api"},
@@ -212,6 +212,20 @@ def module_name(path: Path) -> str:
 def test_no_modules_import_each_other_in_a_circle() -> None:
     # Imports for type checks alone are counted: they join two files as much as any other.
     TopologicalSorter({module_name(p): modules_imported(p) for p in modules()}).prepare()
+
+
+MOST_NAMES_TWICE = 70
+"""Public names that stand in two modules or more: of interfaces, or the same in kernels."""
+
+
+def test_few_public_names_have_two_meanings() -> None:
+    homes: dict[str, set[str]] = {}
+    for path in modules():
+        for node in ast.parse(path.read_text(encoding="utf-8")).body:
+            if isinstance(node, ast.FunctionDef | ast.ClassDef) and not node.name.startswith("_"):
+                homes.setdefault(node.name, set()).add(name_of(path))
+    twice = sorted(name for name, places in homes.items() if len(places) > 1)
+    assert len(twice) <= MOST_NAMES_TWICE, f"give the new one a name of its own: {twice}"
 
 
 def test_no_step_knows_another() -> None:

@@ -68,7 +68,7 @@ def results(study: Study, searched: Results) -> Results:
 
 @pytest.fixture(scope="module")
 def chi2(results: Results) -> float:
-    return float(identification.noise(results).chi2)
+    return float(identification.read_noise(results).chi2)
 
 
 def estimates(study: Study, results: Results) -> np.ndarray:

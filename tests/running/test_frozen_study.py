@@ -8,7 +8,7 @@ import pytest
 
 from pyrofit.config import Study, as_study, read_mapping, read_study
 from pyrofit.errors import StudyError
-from pyrofit.running.frozen import FROZEN, differences, freeze, frozen_study
+from pyrofit.running.frozen import FROZEN, changed_places, freeze, frozen_study
 
 SMOKE = Path(__file__).parents[2] / "config" / "smoke.yaml"
 
@@ -65,4 +65,4 @@ def test_a_damaged_file_is_written_anew_by_the_next_run(content: bytes, study: S
 
 def test_differences_name_what_is_only_in_one() -> None:
     one, other = {"a": {"b": 1}, "c": None}, {"a": {"b": 1, "d": 2}, "c": {"e": 3}}
-    assert list(differences(one, other)) == ["a.d", "c"]
+    assert list(changed_places(one, other)) == ["a.d", "c"]

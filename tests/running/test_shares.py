@@ -7,7 +7,7 @@ import pytest
 
 from pyrofit.config import Study, read_study
 from pyrofit.errors import StudyError
-from pyrofit.running.shares import LANES, MOST_JOBS, SIDE_BY_SIDE, long_plan, shares
+from pyrofit.running.shares import LANES, MOST_JOBS, SIDE_BY_SIDE, jobs_of_repetitions, long_plan
 from pyrofit.solver import run
 
 CONFIG = Path(__file__).parents[2] / "config"
@@ -25,7 +25,7 @@ def study_of(repetitions: int, name: str = "smoke") -> Study:
 def test_each_repetition_belongs_to_one_job(
     repetitions: int, wanted: object, cores: int | None
 ) -> None:
-    found = shares(study_of(repetitions), wanted, cores)
+    found = jobs_of_repetitions(study_of(repetitions), wanted, cores)
     assert [n for job in found for n in job] == list(range(repetitions))
 
 
@@ -36,7 +36,7 @@ def test_each_repetition_belongs_to_one_job(
 def test_on_a_cluster_sixteen_share_a_job_and_few_run_alone(
     repetitions: int, jobs: list[int]
 ) -> None:
-    assert [len(job) for job in shares(study_of(repetitions))] == jobs
+    assert [len(job) for job in jobs_of_repetitions(study_of(repetitions))] == jobs
 
 
 @pytest.mark.parametrize(
@@ -59,7 +59,7 @@ def test_here_three_costs_have_a_job_for_each_core_and_few_run_alone(
     repetitions: int, cores: int, jobs: list[int]
 ) -> None:
     assert len(study_of(repetitions).imp.costs) == 3
-    assert [len(job) for job in shares(study_of(repetitions), cores=cores)] == jobs
+    assert [len(job) for job in jobs_of_repetitions(study_of(repetitions), cores=cores)] == jobs
 
 
 def test_full_jobs_fill_the_lanes_of_the_solver() -> None:
@@ -69,36 +69,36 @@ def test_full_jobs_fill_the_lanes_of_the_solver() -> None:
 
 @pytest.mark.parametrize("cores", [None, 1, 2, 64])
 def test_no_job_of_a_study_of_a_usual_size_runs_one_part_after_another(cores: int | None) -> None:
-    found = shares(study_of(100), cores=cores)
+    found = jobs_of_repetitions(study_of(100), cores=cores)
     assert max(map(len, found)) <= SIDE_BY_SIDE
 
 
 def test_more_repetitions_run_no_full_job_again() -> None:
-    assert shares(study_of(50))[0] == shares(study_of(25))[0]
+    assert jobs_of_repetitions(study_of(50))[0] == jobs_of_repetitions(study_of(25))[0]
 
 
 @pytest.mark.parametrize("cores", [None, 2, 64])
 def test_thousands_of_repetitions_make_few_jobs_of_whole_eights(cores: int | None) -> None:
     study = study_of(1000)
-    found = shares(study, cores=cores)
+    found = jobs_of_repetitions(study, cores=cores)
     assert len(found) * len(study.imp.costs) <= max(MOST_JOBS, cores or 0)
     assert {len(job) % 8 for job in found[:-1]} == {0}
 
 
 def test_number_of_repetitions_in_a_job_may_be_set() -> None:
-    assert [len(job) for job in shares(study_of(25), 10)] == [10, 10, 5]
-    assert [len(job) for job in shares(study_of(25), "100")] == [25]
+    assert [len(job) for job in jobs_of_repetitions(study_of(25), 10)] == [10, 10, 5]
+    assert [len(job) for job in jobs_of_repetitions(study_of(25), "100")] == [25]
 
 
 def test_repetitions_with_an_external_program_are_jobs_of_their_own() -> None:
-    assert {len(job) for job in shares(study_of(200, "hotplate"))} == {1}
-    assert [len(job) for job in shares(study_of(9, "hotplate"), 4)] == [4, 4, 1]
+    assert {len(job) for job in jobs_of_repetitions(study_of(200, "hotplate"))} == {1}
+    assert [len(job) for job in jobs_of_repetitions(study_of(9, "hotplate"), 4)] == [4, 4, 1]
 
 
 @pytest.mark.parametrize("wrong", [0, -1, 2.5, "many", True])
 def test_no_number_of_repetitions_is_refused(wrong: object) -> None:
     with pytest.raises(StudyError, match=rf"--config repetitions_per_job={wrong}: not a whole"):
-        shares(study_of(25), wrong)
+        jobs_of_repetitions(study_of(25), wrong)
 
 
 def test_a_long_plan_is_announced() -> None:

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from pyrofit.scheme.choice import choose
-from pyrofit.scheme.noise import Scatter, deviance, log_density, most_likely
+from pyrofit.scheme.noise import RecordScatter, deviance, log_density_of_noise, most_likely
 from pyrofit.scheme.schemes import Scheme
-from pyrofit.scheme.settings import Settings
-from pyrofit.scheme.twins import make_twin
+from pyrofit.scheme.settings import SchemeSettings
+from pyrofit.scheme.twins import make_scheme_twin
 
-SETTINGS = Settings()
+SETTINGS = SchemeSettings()
 
 
 @dataclass(frozen=True)
@@ -85,11 +85,11 @@ def test_a_scheme_without_predictions_is_not_chosen() -> None:
 
 @pytest.fixture(scope="module")
 def twin():
-    return make_twin(Scheme(order=True), 11, SETTINGS)
+    return make_scheme_twin(Scheme(order=True), 11, SETTINGS)
 
 
 def test_noise_of_a_channel_is_that_of_the_covariance(twin) -> None:
-    scatter = Scatter(twin.setting.records[0], SETTINGS)
+    scatter = RecordScatter(twin.setting.records[0], SETTINGS)
     residual = np.random.default_rng(1).standard_normal(SETTINGS.points)
     white = scatter.noise(0.01).whiten(residual)
     exact = residual @ np.linalg.solve(scatter.covariance(0.01), residual)
@@ -97,16 +97,16 @@ def test_noise_of_a_channel_is_that_of_the_covariance(twin) -> None:
 
 
 def test_deviance_is_minus_twice_the_log_density(twin) -> None:
-    scatter = Scatter(twin.setting.records[0], SETTINGS)
+    scatter = RecordScatter(twin.setting.records[0], SETTINGS)
     residual = 0.01 * np.ones(SETTINGS.points)
-    expected = -2.0 * log_density(residual, scatter.covariance(0.01))
+    expected = -2.0 * log_density_of_noise(residual, scatter.covariance(0.01))
     assert deviance([scatter], [residual], 0.01) == pytest.approx(expected)
 
 
 @pytest.mark.parametrize("size", [0.0, 0.01, 0.04])
 def test_size_of_the_discrepancy_is_recovered(size: float, twin) -> None:
     rng = np.random.default_rng(2)
-    scatters = [Scatter(r, SETTINGS) for r in twin.setting.records]
+    scatters = [RecordScatter(r, SETTINGS) for r in twin.setting.records]
     drawn = [
         rng.multivariate_normal(np.zeros(SETTINGS.points), s.covariance(size)) for s in scatters
     ]

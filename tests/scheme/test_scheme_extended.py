@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from pyrofit.config import as_study, diagnosed_parameters, read_study
-from pyrofit.scheme.extended import extended_keys
-from pyrofit.scheme.posed import Posed, pose
-from pyrofit.scheme.records import Record
+from pyrofit.scheme.extended import scheme_keys
+from pyrofit.scheme.posed import Posed, pose_scheme
+from pyrofit.scheme.records import MassRecord
 from pyrofit.scheme.schemes import Scheme
-from pyrofit.scheme.settings import Settings
+from pyrofit.scheme.settings import SchemeSettings
 
 CONFIG = Path(__file__).parents[2] / "config"
 
@@ -31,12 +31,14 @@ def test_the_diagnosis_of_pmma_estimates_the_same_but_the_kinetics(scheme: Schem
     temperature = np.linspace(400.0, 700.0, 50)
     mass = 1.0 / (1.0 + np.exp((temperature - 630.0) / 8.0))
     records = [
-        Record(term.experiment, term.signal, 10.0, "", True, term, temperature, temperature, mass)
+        MassRecord(
+            term.experiment, term.signal, 10.0, "", True, term, temperature, temperature, mass
+        )
         for term in study.kinetics.cost
     ]
-    posed = pose(study, scheme, records, Settings())
+    posed = pose_scheme(study, scheme, records, SchemeSettings())
     # Read as a file is: what no stage estimates may not be known.
-    made = as_study(extended_keys(study, fitted(posed), {}), "extended.yaml")
+    made = as_study(scheme_keys(study, fitted(posed), {}), "extended.yaml")
     gone = set(study.kinetics.estimate)
     assert set(diagnosed_parameters(made)) == set(diagnosed_parameters(study)) - gone
     assert "tga_offset" in diagnosed_parameters(made)

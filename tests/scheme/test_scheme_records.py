@@ -8,17 +8,17 @@ import pytest
 
 from pyrofit.config import Study
 from pyrofit.errors import StudyError
-from pyrofit.scheme.fit import Setting, problem_of
-from pyrofit.scheme.posed import pose, template_of
+from pyrofit.scheme.fit import SchemeSetting, problem_of
+from pyrofit.scheme.posed import pose_scheme, template_of
 from pyrofit.scheme.records import rates_of, records_of
 from pyrofit.scheme.schemes import Scheme
-from pyrofit.scheme.settings import Settings
-from pyrofit.scheme.twins import FITTED_RATES, HELD_OUT_RATES, make_twin
+from pyrofit.scheme.settings import SchemeSettings
+from pyrofit.scheme.twins import FITTED_RATES, HELD_OUT_RATES, make_scheme_twin
 
 
 @cache
-def setting() -> Setting:
-    return make_twin(Scheme(), 1, Settings()).setting
+def setting() -> SchemeSetting:
+    return make_scheme_twin(Scheme(), 1, SchemeSettings()).setting
 
 
 def changed(**update: object) -> Study:
@@ -75,7 +75,7 @@ def test_each_of_two_laboratories_has_an_offset_of_5_K_about_zero() -> None:
         experiments[name] = experiments[name].model_copy(update={"laboratory": laboratory})
     study = given.study.model_copy(update={"experiments": experiments})
     found = records_of(study, given.measurements, 120)
-    posed = pose(study, Scheme(), found, given.settings)
+    posed = pose_scheme(study, Scheme(), found, given.settings)
     assert posed.offsets == ("scheme_offset_1", "scheme_offset_2")
     assert posed.count == 2
     _, prior = problem_of(replace(given, study=study, records=tuple(found)), posed, found)
@@ -85,4 +85,4 @@ def test_each_of_two_laboratories_has_an_offset_of_5_K_about_zero() -> None:
 
 def test_one_laboratory_has_no_offset() -> None:
     given = setting()
-    assert pose(given.study, Scheme(), given.records, given.settings).offsets == ()
+    assert pose_scheme(given.study, Scheme(), given.records, given.settings).offsets == ()

@@ -15,8 +15,8 @@ from pyrofit.results.step import exists
 from pyrofit.scheme.arrangements.base import PREFIX
 from pyrofit.scheme.choice import Choice
 from pyrofit.scheme.schemes import Scheme
-from pyrofit.scheme.settings import Settings
-from pyrofit.scheme.twins import make_twin
+from pyrofit.scheme.settings import SchemeSettings
+from pyrofit.scheme.twins import make_scheme_twin
 from pyrofit.simulate import simulate_tga
 from pyrofit.solver.curves import Request
 from pyrofit.steps.scheme import record as scheme
@@ -34,7 +34,7 @@ class Made:
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory: pytest.TempPathFactory) -> Made:
-    twin = make_twin(Scheme(order=True), 21, Settings())
+    twin = make_scheme_twin(Scheme(order=True), 21, SchemeSettings())
     setting = twin.setting
     results = Results(tmp_path_factory.mktemp("results"))
     for (name, signal), frame in setting.measurements.items():
@@ -71,7 +71,7 @@ def test_study_with_the_chosen_scheme_simulates_the_chosen_curves(made: Made) ->
     extended = read_study(made.results.of_step("scheme", scheme.EXTENDED))
     assert extended.imp.kinetics == "described"
     assert not {"T", "E"} & set(extended.parameters)
-    curves = scheme.curves(made.results)
+    curves = scheme.read_scheme_curves(made.results)
     here = curves[curves["experiment"] == "tga_10"]
     asked = Request(
         here["time_s"].to_numpy(float),

@@ -6,13 +6,13 @@ import pytest
 from pyrofit.errors import StudyError
 from pyrofit.scheme.arrangements import ARRANGEMENTS
 from pyrofit.scheme.arrangements.base import PREFIX
-from pyrofit.scheme.posed import pose
+from pyrofit.scheme.posed import pose_scheme
 from pyrofit.scheme.schemes import Scheme, all_schemes, scheme_named
 from pyrofit.scheme.search import largest_first
-from pyrofit.scheme.settings import Settings
-from pyrofit.scheme.twins import draw_truth, make_twin, simulated
+from pyrofit.scheme.settings import SchemeSettings
+from pyrofit.scheme.twins import draw_truth, make_scheme_twin, simulated_masses
 
-SETTINGS = Settings()
+SETTINGS = SchemeSettings()
 SCHEMES = all_schemes(SETTINGS.most_reactions)
 
 
@@ -52,12 +52,12 @@ def test_largest_first_keeps_the_mixture() -> None:
 
 @pytest.fixture(scope="module")
 def setting():
-    return make_twin(Scheme(), 3, SETTINGS).setting
+    return make_scheme_twin(Scheme(), 3, SETTINGS).setting
 
 
 @pytest.mark.parametrize("name", SCHEMES)
 def test_material_of_each_scheme_uses_its_parameters(name: str, setting) -> None:
-    posed = pose(setting.study, SCHEMES[name], setting.records, SETTINGS)
+    posed = pose_scheme(setting.study, SCHEMES[name], setting.records, SETTINGS)
     assert posed.count == len(set(posed.names))
     assert len(posed.study.material.reactions) == SCHEMES[name].reactions + SCHEMES[name].volatile
 
@@ -65,7 +65,9 @@ def test_material_of_each_scheme_uses_its_parameters(name: str, setting) -> None
 @pytest.mark.parametrize("name", ["parallel_3_order", "consecutive_3", "single_volatile"])
 def test_residue_is_that_of_the_study_whatever_the_scheme(name: str, setting) -> None:
     truth = draw_truth(SCHEMES[name], np.random.default_rng(5))
-    mass = simulated(setting.study, SCHEMES[name], truth, setting.measurements, "tga_1", SETTINGS)
+    mass = simulated_masses(
+        setting.study, SCHEMES[name], truth, setting.measurements, "tga_1", SETTINGS
+    )
     share = 1.0 - truth[f"{PREFIX}volatile_share"] if SCHEMES[name].volatile else 1.0
     assert mass[0] == pytest.approx(1.0, abs=1e-6)
     assert mass[-1] == pytest.approx(0.002 * share, abs=2e-4)
@@ -76,8 +78,8 @@ def test_two_equal_parallel_reactions_are_one(setting) -> None:
     study, measured = setting.study, setting.measurements
     truth = draw_truth(SCHEMES["parallel_2"], np.random.default_rng(6))
     truth |= {f"{PREFIX}{k}_2": truth[f"{PREFIX}{k}_1"] for k in ("T", "E")}
-    both = simulated(study, SCHEMES["parallel_2"], truth, measured, "tga_10", SETTINGS)
-    one = simulated(study, SCHEMES["single"], truth, measured, "tga_10", SETTINGS)
+    both = simulated_masses(study, SCHEMES["parallel_2"], truth, measured, "tga_10", SETTINGS)
+    one = simulated_masses(study, SCHEMES["single"], truth, measured, "tga_10", SETTINGS)
     assert both == pytest.approx(one, abs=1e-12)
 
 
@@ -86,10 +88,10 @@ def test_two_equal_competing_reactions_are_one_of_twice_the_rate(setting) -> Non
     truth = draw_truth(SCHEMES["competing_2"], np.random.default_rng(6))
     T, E = (truth[f"{PREFIX}{k}_1"] for k in ("T", "E"))
     truth |= {f"{PREFIX}T_2": T, f"{PREFIX}E_2": E, f"{PREFIX}y_2": 0.002}
-    both = simulated(study, SCHEMES["competing_2"], truth, measured, "tga_10", SETTINGS)
+    both = simulated_masses(study, SCHEMES["competing_2"], truth, measured, "tga_10", SETTINGS)
     # k is 0.001 1/s at T; twice as large, it is so where 1/T is larger by R ln 2 / E.
     truth |= {f"{PREFIX}T_1": 1.0 / (1.0 / T + 8.314462618 * np.log(2.0) / E)}
-    one = simulated(study, SCHEMES["single"], truth, measured, "tga_10", SETTINGS)
+    one = simulated_masses(study, SCHEMES["single"], truth, measured, "tga_10", SETTINGS)
     assert both == pytest.approx(one, abs=1e-6)
 
 
@@ -98,7 +100,7 @@ def test_residue_of_competing_reactions_depends_on_the_heating_rate(setting) -> 
     values = {"T_1": 600.0, "E_1": 2.4e5, "T_2": 590.0, "E_2": 1.2e5, "y_2": 0.5}
     truth = {PREFIX + key: value for key, value in values.items()}
     slow, fast = (
-        simulated(study, SCHEMES["competing_2"], truth, measured, name, SETTINGS)[-1]
+        simulated_masses(study, SCHEMES["competing_2"], truth, measured, name, SETTINGS)[-1]
         for name in ("tga_1", "tga_20")
     )
     assert slow > fast + 0.05
@@ -109,10 +111,10 @@ def test_autocatalytic_reaction_is_slow_first_and_fast_then(setting) -> None:
     study, measured = setting.study, setting.measurements
     assert SCHEMES["single_order_catalysis"].words == "one autocatalytic reaction of order n"
     truth = {f"{PREFIX}T_1": 600.0, f"{PREFIX}E_1": 1.8e5, f"{PREFIX}K": 0.0}
-    plain = simulated(study, SCHEMES["single"], truth, measured, "tga_10", SETTINGS)
-    none = simulated(study, SCHEMES["single_catalysis"], truth, measured, "tga_10", SETTINGS)
+    plain = simulated_masses(study, SCHEMES["single"], truth, measured, "tga_10", SETTINGS)
+    none = simulated_masses(study, SCHEMES["single_catalysis"], truth, measured, "tga_10", SETTINGS)
     truth |= {f"{PREFIX}K": 20.0}
-    fast = simulated(study, SCHEMES["single_catalysis"], truth, measured, "tga_10", SETTINGS)
+    fast = simulated_masses(study, SCHEMES["single_catalysis"], truth, measured, "tga_10", SETTINGS)
     assert none == pytest.approx(plain, abs=1e-9)
     assert np.all(fast <= plain + 1e-9)
     # The part from 90 to 10 % of the mass takes fewer kelvins.

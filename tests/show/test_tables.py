@@ -8,8 +8,8 @@ from shown_studies import _starts, described, fake, made, repeats, synthetic
 
 from pyrofit.analysis import optimisers, uses
 from pyrofit.analysis.estimates import Estimated
-from pyrofit.analysis.recovery import compared
-from pyrofit.analysis.repetitions import Repeated
+from pyrofit.analysis.recovery import recovery_row
+from pyrofit.analysis.repetitions import OverRepetitions
 from pyrofit.config import as_study
 from pyrofit.errors import StudyError
 from pyrofit.results.files import read_csv, write_csv
@@ -202,7 +202,7 @@ def test_flag_of_a_parameter_at_its_bound() -> None:
 
 def test_flags_at_their_limits() -> None:
     def said(best: float, sigma: float) -> str:
-        return flags(Repeated("RMSE", "k", best, best, sigma, 0.0, 2.0))
+        return flags(OverRepetitions("RMSE", "k", best, best, sigma, 0.0, 2.0))
 
     assert said(0.009, 0.0) == "at limit (lower)"
     assert said(0.011, 0.0) == ""
@@ -243,7 +243,7 @@ def test_truth_of_zero_has_no_relative_error() -> None:
     }
     given["synthetic"]["truth"]["slope"] = 0.0
     study = as_study(given, "fake.json")
-    row = compared(study, "RMSE", "slope", {"sceua": 0.002})
+    row = recovery_row(study, "RMSE", "slope", {"sceua": 0.002})
     assert row["sceua_error_truth_percent"] is None
     assert row["sceua_error_limits_percent"] == pytest.approx(10.0, rel=1e-14)
 
@@ -301,11 +301,11 @@ def test_lowest_cost_may_be_that_of_cmaes(tmp_path: Path) -> None:
 
 
 def test_optimisers_within_one_percent_agree() -> None:
-    assert optimisers.remark(1.0, 0.991, 1.0) == optimisers.AGREE
-    assert optimisers.remark(1.0, 0.989, 1.0) == optimisers.LOCAL_OPTIMUM
-    assert optimisers.remark(1.0, 0.9, 0.989) == optimisers.NOT_A_MINIMUM
-    assert optimisers.remark(0.989, 1.0, 0.989) == optimisers.SCEUA_AHEAD
-    assert optimisers.remark(0.0, 0.0, 0.0) == optimisers.AGREE
+    assert optimisers.who_is_ahead(1.0, 0.991, 1.0) == optimisers.AGREE
+    assert optimisers.who_is_ahead(1.0, 0.989, 1.0) == optimisers.LOCAL_OPTIMUM
+    assert optimisers.who_is_ahead(1.0, 0.9, 0.989) == optimisers.NOT_A_MINIMUM
+    assert optimisers.who_is_ahead(0.989, 1.0, 0.989) == optimisers.SCEUA_AHEAD
+    assert optimisers.who_is_ahead(0.0, 0.0, 0.0) == optimisers.AGREE
 
 
 def test_validation_marks_fitted_and_held_out_data(tmp_path: Path) -> None:

@@ -307,7 +307,7 @@ def test_mixing_depth_follows_the_front_layer() -> None:
 def cells(given: Gasification, matter: Material, count: int) -> Any:
     arrays = lower.lower_material(matter, VALUES)
     layers = lower_experiment.lower_layers(given, matter, arrays, VALUES)
-    mass, empty = lower_experiment.cells_of(layers, np.array([count]))
+    mass, empty = lower_experiment.share_out_cells(layers, np.array([count]))
     assert empty.tolist() == [0]
     return mass
 
@@ -346,7 +346,7 @@ def test_set_with_fewer_cells_begins_with_empty_ones() -> None:
     given, matter = experiment(sample={"layers": LAYERS}), material()
     arrays = lower.lower_material(matter, VALUES, 3)
     layers = lower_experiment.lower_layers(given, matter, arrays, VALUES, 3)
-    mass, empty = lower_experiment.cells_of(layers, np.array([8, 20, 12]))
+    mass, empty = lower_experiment.share_out_cells(layers, np.array([8, 20, 12]))
     assert mass.shape == (20, 3, 3)
     assert empty.tolist() == [12, 0, 8]
     for s, count in enumerate((8, 20, 12)):
@@ -358,7 +358,7 @@ def test_number_of_cells_is_made_a_multiple_by_empty_ones() -> None:
     given, matter = experiment(sample={"layers": LAYERS}), material()
     arrays = lower.lower_material(matter, VALUES, 2)
     layers = lower_experiment.lower_layers(given, matter, arrays, VALUES, 2)
-    mass, empty = lower_experiment.cells_of(layers, np.array([8, 17]), 8)
+    mass, empty = lower_experiment.share_out_cells(layers, np.array([8, 17]), 8)
     assert mass.shape == (24, 3, 2)
     assert empty.tolist() == [16, 7]
     for s, count in enumerate((8, 17)):

@@ -2,7 +2,7 @@
 
 import pytest
 
-from pyrofit.diagnose.search.progress import ROUGHLY, SECOND, TO_THE_END, Progress, Whole
+from pyrofit.diagnose.search.progress import ROUGHLY, SECOND, TO_THE_END, SearchProgress, Whole
 from pyrofit.stages.progress import Told
 
 
@@ -29,7 +29,7 @@ def test_fits_of_a_diagnosis_are_counted_with_the_time_left_of_these_and_of_all(
     now, lines = [0.0], list[str]()
     whole = Whole(lambda: now[0])
     now[0] = 20.0  # the fit of the base model
-    told = Progress(ROUGHLY, whole, 30, lines.append, lambda: now[0])
+    told = SearchProgress(ROUGHLY, whole, 30, lines.append, lambda: now[0])
     for done, at in ((1, 22.0), (6, 32.0), (8, 36.0), (29, 78.0), (30, 110.0)):
         now[0] = at
         told(done)
@@ -49,7 +49,7 @@ def test_time_left_of_a_diagnosis_falls_and_is_at_least_that_of_the_part() -> No
         shares += [whole.left(part, share) for share in (0.0, 0.5, 1.0)]
     assert shares == sorted(shares, reverse=True)
     lines: list[str] = []
-    told = Progress(TO_THE_END, whole, 10, lines.append, lambda: now[0])
+    told = SearchProgress(TO_THE_END, whole, 10, lines.append, lambda: now[0])
     now[0] = 800.0
     told(1)
     assert lines[0].endswith("about 90 min left; the diagnosis: about 90 min left")

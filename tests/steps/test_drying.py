@@ -11,13 +11,13 @@ from pyrofit.config import Study, as_study
 from pyrofit.results.files import Results
 from pyrofit.show.water import lacking_water
 from pyrofit.steps.preview.drying import held_up, held_up_of
-from pyrofit.steps.preview.record import Found, HeldUp, read, write
+from pyrofit.steps.preview.record import HeldUp, Preview, read, write
 
 SECONDS = np.linspace(0.0, 1500.0, 1501)
 MOIST_K = np.interp(SECONDS, [0.0, 300.0, 700.0, 1500.0], [300.0, 375.0, 395.0, 600.0])
 
 HELD = HeldUp(experiment="slab", signal="back_temperature", temperature_K=385.0)
-FOUND = Found(sets=1, unfinished={}, windows=[], nearest=[], far=False, causes=[], unmoved=[])
+FOUND = Preview(sets=1, unfinished={}, windows=[], nearest=[], far=False, causes=[], unmoved=[])
 
 
 def given(share: float | str = 0.0, yields: float | str = 0.2) -> dict[str, Any]:

@@ -149,6 +149,6 @@ def test_the_step_gives_times_lines_and_sentences(done: Path) -> None:
     assert thick.tests == 5
     said = " ".join(page.sentences(study, results))
     assert "By the heat release rate above a threshold, the critical heat flux is 11 kW/m²" in said
-    table = page.times(study, results)
+    table = page.times_table(study, results)
     assert "no ignition" in set(table["heat_release_s"])
     assert (done / "results" / "ignition" / "fluxes.svg").is_file()

@@ -36,7 +36,7 @@ def test_sample_keeps_the_order_of_ties_and_all_sets_where_they_are_few() -> Non
     ],
 )
 def test_histories_share_the_sample(sizes: list[int], total: int, taken: list[int]) -> None:
-    assert rescoring.shares(sizes, total) == taken
+    assert rescoring.shares_of_histories(sizes, total) == taken
 
 
 def test_rank_correlation_by_hand_and_as_scipy_computes_it() -> None:

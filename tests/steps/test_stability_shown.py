@@ -21,7 +21,7 @@ from pyrofit.show.page import pages_of_steps
 from pyrofit.show.report import write_report
 from pyrofit.steps.stability import record as stability
 from pyrofit.steps.stability.facts import read
-from pyrofit.steps.stability.figures import draw
+from pyrofit.steps.stability.figures import draw_shares
 from pyrofit.steps.stability.page import PAGE
 from pyrofit.steps.stability.sentences import sentences
 
@@ -126,7 +126,7 @@ def test_without_any_effect_there_is_a_table_and_an_empty_figure(tmp_path: Path)
 def test_figure_has_a_bar_of_each_kind_for_each_effect(tmp_path: Path) -> None:
     study, results = stable_or_not(tmp_path)
     with style.style():
-        (ax,) = draw(study, results).axes
+        (ax,) = draw_shares(study, results).axes
     widths = [round(bar.get_width(), 1) for bar in ax.patches]  # type: ignore[attr-defined]
     assert widths == [66.7, 66.7, 33.3, 66.7, 33.3, 0.0]
 

@@ -8,20 +8,22 @@ from pyrofit.effects import known_effects
 from pyrofit.model.accuracy import Accuracy
 from pyrofit.model.heated import HeatedExperiment
 from pyrofit.model.slab import SlabExperiment
-from pyrofit_exchange.fds.export import text_of
+from pyrofit_exchange.fds.export import text_of_file
 from pyrofit_exchange.fds.heated import heated_deck
 from pyrofit_exchange.fds.parse import read_namelists
-from pyrofit_exchange.fds.predicted import Predicted, predict_slab
+from pyrofit_exchange.fds.predicted import PredictedByPyrofit, predict_slab
 from pyrofit_exchange.fds.slab import Deck, slab_deck
 from pyrofit_exchange.fds.versions import OLD, Version
 
 
 def lines(deck: Deck) -> list[str]:
-    return text_of(deck, []).splitlines()
+    return text_of_file(deck, []).splitlines()
 
 
 def keys(deck: Deck, group: str) -> list[dict[str, list[object]]]:
-    return [of for name, of, _ in read_namelists(text_of(deck, []), deck.name) if name == group]
+    return [
+        of for name, of, _ in read_namelists(text_of_file(deck, []), deck.name) if name == group
+    ]
 
 
 @cache
@@ -29,13 +31,15 @@ def base() -> Base:
     return pmma()
 
 
-def predicted(of: Base, name: str) -> Predicted:
+def predicted(of: Base, name: str) -> PredictedByPyrofit:
     experiment = of.experiments[name]
     assert isinstance(experiment, SlabExperiment)
     return predict_slab(experiment, of.material, of.values, Accuracy())
 
 
-def deck_of(of: Base, name: str, version: Version = OLD, like: Predicted | None = None) -> Deck:
+def deck_of(
+    of: Base, name: str, version: Version = OLD, like: PredictedByPyrofit | None = None
+) -> Deck:
     """Return the deck of an experiment; ``like`` spares the simulation."""
     experiment = of.experiments[name]
     if isinstance(experiment, HeatedExperiment):

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from pyrofit_exchange.fds.export import Written
+from pyrofit_exchange.fds.export import WrittenDeck
 
 SCRIPT = """\
 #!{python} -S
@@ -42,7 +42,7 @@ print("STOP: " + end + " (CHID: " + name + ")", file=sys.stderr)
 """
 
 
-def curve_of(one: Written, factor: float) -> str:
+def curve_of(one: WrittenDeck, factor: float) -> str:
     """Return pyrofit's curve as FDS would write it, the rate multiplied."""
     weights = one.deck.weights
     if not one.deck.step_s:
@@ -64,7 +64,7 @@ def curve_of(one: Written, factor: float) -> str:
 
 
 def install(
-    folder: Path, written: list[Written], mode: str, version: str = "6.7.4", factor: float = 1.0
+    folder: Path, written: list[WrittenDeck], mode: str, version: str = "6.7.4", factor: float = 1.0
 ) -> Path:
     """Write the program and the curves that it replays; return its path."""
     folder.mkdir(parents=True, exist_ok=True)

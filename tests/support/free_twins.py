@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.config import Study, TermSpec, read_study
-from pyrofit.diagnose.base.descent import descend
+from pyrofit.diagnose.base.descent import descend_chi_square
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import Base, model_of
 from pyrofit.effects.substance import properties_changed
@@ -73,7 +73,7 @@ def twin(
     likelihood = Likelihood(posed(study, channels, measured), noise)
     base = Base(likelihood, tuple(range(len(channels))))
     model = model_of(base, {})
-    return FittedModel(model, descend(model, likelihood.scaled(truth)))
+    return FittedModel(model, descend_chi_square(model, likelihood.scaled(truth)))
 
 
 def nothing(problem: Problem) -> Problem:

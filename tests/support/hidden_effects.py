@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from pyrofit.diagnose.diagnosis import Diagnosis
+from pyrofit.diagnose.diagnosis import DiagnosisWork
 
 HIDDEN: dict[str, dict[str, float]] = {
     "nothing": {},
@@ -13,4 +13,4 @@ HIDDEN: dict[str, dict[str, float]] = {
 }
 SEED = 2
 
-Diagnosed = Callable[[str], Diagnosis]
+Diagnosed = Callable[[str], DiagnosisWork]

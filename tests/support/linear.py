@@ -13,7 +13,7 @@ import numpy as np
 from small import CHANNELS, base_of, study
 
 from pyrofit.cost import Target, WeightedSum, make_term
-from pyrofit.diagnose.base.descent import descend, refreshed
+from pyrofit.diagnose.base.descent import descend_chi_square, refreshed
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import Base, Model, model_of, name_of, strength_of
 from pyrofit.estimate.correlation import Correlation
@@ -108,7 +108,9 @@ def base(
 
 
 def fitted(model: Model) -> FittedModel:
-    return FittedModel(model, refreshed(model, descend(model, np.full(len(model.names), 0.45))))
+    return FittedModel(
+        model, refreshed(model, descend_chi_square(model, np.full(len(model.names), 0.45)))
+    )
 
 
 def fit(columns: Columns, y: FloatArray, **options: object) -> FittedModel:

@@ -1,15 +1,15 @@
 """Records of results with plain values."""
 
 from pyrofit.results.identification import Channel
-from pyrofit.results.kinetics import Fit, Searched
+from pyrofit.results.kinetics import KineticsFit, Searched
 from pyrofit.results.searches import End
 
 
-def searched(values: dict[str, float], cost: float) -> Fit:
+def searched(values: dict[str, float], cost: float) -> KineticsFit:
     """Return searches of the kinetics that ended at the same values."""
     end = End(cost=cost, calls=9, at_bound=[], parameters=values)
     sceua = Searched(cost=cost, calls=99)
-    return Fit(
+    return KineticsFit(
         cost=cost,
         parameters=values,
         optimiser="SCE-UA",

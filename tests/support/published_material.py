@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import Any
 
-from pyrofit_compare.published import Published
+from pyrofit_compare.published import PublishedSet
 from pyrofit_exchange.macfp.schema import StrictSet
 
 Change = Callable[[dict[str, Any]], object]
@@ -13,7 +13,7 @@ def single(value: float) -> dict[str, object]:
     return {"Form": "Single Value", "Value": value}
 
 
-def published(*changes: Change) -> Published:
+def published(*changes: Change) -> PublishedSet:
     """Return a polymer of one reaction, changed."""
     residue = {"density": 1000.0, "conductivity": 0.2, "heat": 1000.0, "emissivity": 0.9}
     polymer = {"density": 1190.0, "conductivity": 0.21, "heat": 2100.0, "emissivity": 0.88}
@@ -52,7 +52,7 @@ def published(*changes: Change) -> Published:
     }
     for change in changes:
         change(given)
-    return Published("Polymer", StrictSet.model_validate(given))
+    return PublishedSet("Polymer", StrictSet.model_validate(given))
 
 
 def of_thermal(key: str, form: dict[str, object]) -> Change:

@@ -15,7 +15,7 @@ from pyrofit.quantities import known_quantities
 from pyrofit.results import goodness, isoconversional, searches
 from pyrofit.results.files import Results, read_csv, write_csv, write_json
 from pyrofit.results.goodness import Goodness, Miss, SignalGoodness
-from pyrofit.results.identification import Noise, write_noise
+from pyrofit.results.identification import StageNoise, write_noise
 from pyrofit.results.kinetics import labels
 from pyrofit.results.record import write_record
 from pyrofit.show.sections import make_named
@@ -245,7 +245,7 @@ def _identification(study: Study, results: Results) -> None:
     profile = {"parameter": "cp", "value": [1000.0, 2450.0, 3500.0], "rise": [16.0, 4.0, 0.0]}
     write_csv(results.identification("profiles.csv"), pd.DataFrame(profile))
     channel = noise_of("slab_25", "mlr", points=20, sd=2e-4, chi2=72.0)
-    found = Noise(channels=[channel], chi2=72.0, freedom=18.0, dispersion=4.0)
+    found = StageNoise(channels=[channel], chi2=72.0, freedom=18.0, dispersion=4.0)
     write_noise(results, "imp", found)
     window = Miss(20.0, 60.0, None, None, -3e-4)
     missed = SignalGoodness("slab_25", "mlr", 0.002, 4e-4, 8e-3, 2e-4, 1.0, 4e-4, (window,))
@@ -264,7 +264,7 @@ def _identification(study: Study, results: Results) -> None:
         alone = pd.DataFrame({"parameter": ["T_p"], "T_p": [1.0]})
         write_csv(results.identification("correlation.csv", "kinetics"), alone)
         channel = noise_of("slow", "mass_fraction", points=20, sd=2e-4, chi2=20.0)
-        found = Noise(channels=[channel], chi2=20.0, freedom=19.0, dispersion=1.0)
+        found = StageNoise(channels=[channel], chi2=20.0, freedom=19.0, dispersion=1.0)
         write_noise(results, "kinetics", found)
         described = SignalGoodness("slow", "mass_fraction", 0.4, 5e-4, 1.0, 5e-4, 1.0, 1e-5, ())
         goodness.write(results, "kinetics", Goodness(0.4, (described,)))

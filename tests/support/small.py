@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.config import Study, TermSpec, as_study
-from pyrofit.data.noise import autoregressive, draw, moving_average
+from pyrofit.data.noise import autoregressive, draw_noise, moving_average
 from pyrofit.diagnose.base.model import Base, extended, model_of, strength_of
 from pyrofit.estimate.correlation import Correlation
 from pyrofit.estimate.likelihood import Likelihood
@@ -144,7 +144,7 @@ def measured(hidden: Mapping[str, float], seed: int) -> Measurements:
     rng = np.random.default_rng(seed)
     frames = {}
     for (name, quantity), curve in zip(CHANNELS, clean(hidden), strict=True):
-        noise = SD[quantity] * draw(NOISE[quantity](curve.size), rng)
+        noise = SD[quantity] * draw_noise(NOISE[quantity](curve.size), rng)
         frames[name, quantity] = pd.DataFrame(
             {
                 "time_s": TIMES[name],

@@ -67,7 +67,7 @@ def test_new_study_recognises_a_hold(tmp_path: Path, monkeypatch: pytest.MonkeyP
     rows = zip(TIME, HEATED["temperature_K"], mass, strict=True)
     text = "".join(f"{a:.3f},{b:.3f},{c:.5f}\n" for a, b, c in rows)
     Path("hold.csv").write_text("Time (s),Temperature (K),Mass (mg)\n" + text, encoding="utf-8")
-    run = draft.measured("tga", Path("hold.csv"))
+    run = draft.read_experiment("tga", Path("hold.csv"))
     assert run.number == pytest.approx(60.0)
     loss = files_of("tga").loss(run.frames)
     assert loss is not None

@@ -42,7 +42,7 @@ def estimated_twice(study: Study) -> list[str]:
 
 
 @dataclass(frozen=True)
-class Outside:
+class OutsideAnswer:
     """The best set of a cost function, and which of its values leave the answer's intervals.
 
     Parameters
@@ -60,7 +60,7 @@ class Outside:
 
 def outside_intervals(
     study: Study, estimates: Sequence[Estimated], best: pd.DataFrame
-) -> list[Outside]:
+) -> list[OutsideAnswer]:
     """Return which best sets have values outside the 95 % intervals of the answer, and where.
 
     Parameters
@@ -74,7 +74,9 @@ def outside_intervals(
     """
     ours = [e for e in one_each(study, estimates) if e.stage == "imp"]
     return [
-        Outside(str(row["cost_function"]), str(row["found_by"]), tuple(_outside(study, ours, row)))
+        OutsideAnswer(
+            str(row["cost_function"]), str(row["found_by"]), tuple(_outside(study, ours, row))
+        )
         for row in best.to_dict("records")
     ]
 

@@ -10,7 +10,7 @@ from pyrofit.analysis.uses import PUBLISHED, SCEUA
 from pyrofit.config import Study
 from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.estimate.posterior import limit_of
-from pyrofit.results.searches import Searched
+from pyrofit.results.searches import AllSearches
 
 
 def at_bound(value: float, lower: float, upper: float) -> str:
@@ -22,7 +22,7 @@ def at_bound(value: float, lower: float, upper: float) -> str:
     return limit_of((value - lower) / (upper - lower))
 
 
-def best_sets(study: Study, searched: Searched) -> pd.DataFrame:
+def best_sets(study: Study, searched: AllSearches) -> pd.DataFrame:
     """Return the set of the lowest cost of each cost function, whoever found it, SI units."""
     found = ends(study, searched)
     ours = found[found["found_by"] != PUBLISHED].reset_index(drop=True)
@@ -30,7 +30,7 @@ def best_sets(study: Study, searched: Searched) -> pd.DataFrame:
     return ours.loc[lowest].reset_index(drop=True)
 
 
-def ends(study: Study, searched: Searched) -> pd.DataFrame:
+def ends(study: Study, searched: AllSearches) -> pd.DataFrame:
     """Return where every repetition and every start ended, and published sets, SI units.
 
     Columns: ``cost_function``, ``found_by``, ``number``, ``best`` (whether it has the lowest cost

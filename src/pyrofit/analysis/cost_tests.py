@@ -9,7 +9,7 @@ from pyrofit.analysis import groups
 from pyrofit.analysis.uses import SCEUA, title_of, use_of
 from pyrofit.config import Study
 from pyrofit.results import searches
-from pyrofit.results.comparison import scores
+from pyrofit.results.comparison import read_all_scores
 from pyrofit.results.files import Results
 from pyrofit.results.identification import estimates
 from pyrofit.solver.arrays import FloatArray
@@ -51,7 +51,7 @@ def cost_tests(study: Study, results: Results) -> pd.DataFrame:
             for p, (_, samples) in zip(frame["p_place"], tested, strict=True)
         ]
         frame["scatter_ratio"] = [_scatter_ratio(v) for v in values]
-        frame["p_scatter"] = groups.holm([groups.spread(v) for v in values])
+        frame["p_scatter"] = groups.holm([groups.spread_test(v) for v in values])
         frame["verdict"] = [
             _verdict(p, s) for p, s in zip(frame["p_place"], frame["p_scatter"], strict=True)
         ]
@@ -65,12 +65,12 @@ def _samples(
 ) -> Iterator[tuple[dict[str, str], dict[str, FloatArray]]]:
     """Yield the quantities, and the values of all repetitions by cost function."""
     costs = list(study.imp.costs)
-    summary = searches.summary(study, results)
+    summary = searches.best_of_repetitions(study, results)
     for name in study.imp.estimate:
         parameter = study.parameters[name]
         about = {"kind": "parameters", "quantity": name, "unit": parameter.unit}
         yield about, _by_cost(costs, summary, summary[name] / parameter.factor)
-    found = scores(results)
+    found = read_all_scores(results)
     found = found[found["found_by"] == SCEUA]
     for name in study.validation.experiments:
         experiment = study.experiments[name]
@@ -85,7 +85,7 @@ def _samples(
                 "unit": "-" if quantity.relative else quantity.unit,
             }
             yield about, _by_cost(costs, here, here["value"].astype(float))
-    speed = convergence(study, results)
+    speed = convergence_effort(study, results)
     for column, said in (("generations", "generations"), ("calls", "model calls")):
         about = {"kind": "search", "quantity": f"{said} to within 1 % of the end", "unit": "-"}
         yield about, _by_cost(costs, speed, speed[column])
@@ -95,7 +95,7 @@ def _by_cost(costs: list[str], frame: pd.DataFrame, values: pd.Series) -> dict[s
     return {cost: values[frame["cost_function"] == cost].dropna().to_numpy(float) for cost in costs}
 
 
-def convergence(study: Study, results: Results) -> pd.DataFrame:
+def convergence_effort(study: Study, results: Results) -> pd.DataFrame:
     """Return after how many generations and model calls each search was near its final cost."""
     frame = searches.running_minima(study, results)
     rows = []

@@ -105,7 +105,7 @@ class Estimated:
         return "determined" if self.verdict == "determined" else "weakly determined"
 
 
-def estimated(study: Study, identified: Identified) -> list[Estimated]:
+def estimates_of(study: Study, identified: Identified) -> list[Estimated]:
     """Return the estimates of all stages, in the study's order."""
     return [
         _estimated(study, stage, row, identified.correlations[stage])

@@ -24,7 +24,7 @@ WALKERS = 24
 SWEEPS = 80
 
 
-def explore(
+def walk_about(
     problem: Problem, best: FloatArray, top: float, rng: np.random.Generator
 ) -> tuple[FloatArray, FloatArray]:
     """Walk about the region where the cost is at most ``top``, from a set in it.
@@ -105,7 +105,7 @@ def _direction(size: int, pool: list[FloatArray], rng: np.random.Generator) -> F
     return rng.standard_normal(size)
 
 
-def thinned(scaled: FloatArray) -> NDArray[np.int64]:
+def farthest_apart(scaled: FloatArray) -> NDArray[np.int64]:
     """Return which sets lie farthest apart, beginning with the first.
 
     Each is the one that is farthest from all before it (Gonzalez 1985,
@@ -123,7 +123,7 @@ def thinned(scaled: FloatArray) -> NDArray[np.int64]:
 
     Examples
     --------
-    >>> thinned(np.array([[0.5], [0.6], [0.9], [0.5]])).tolist()
+    >>> farthest_apart(np.array([[0.5], [0.6], [0.9], [0.5]])).tolist()
     [0, 2, 1]
     """
     chosen = [0]

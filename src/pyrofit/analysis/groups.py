@@ -55,12 +55,12 @@ def pair(first: FloatArray, second: FloatArray) -> tuple[float, float]:
     return float(found.pvalue), delta
 
 
-def spread(groups: Sequence[FloatArray]) -> float:
+def spread_test(groups: Sequence[FloatArray]) -> float:
     """Return p of Brown and Forsythe's test (1974, doi 10.1080/01621459.1974.10482955).
 
     It compares the distances from the medians.
 
-    >>> round(spread([np.arange(9.0), 100.0 * np.arange(9.0)]), 4)
+    >>> round(spread_test([np.arange(9.0), 100.0 * np.arange(9.0)]), 4)
     0.0002
     """
     from scipy.stats import f_oneway

@@ -12,7 +12,7 @@ FAR = 2.0
 
 
 @dataclass(frozen=True)
-class Known:
+class KnownBesideEstimate:
     """A parameter's known value with standard deviation and source, and its estimate.
 
     Values are in the parameter's unit.
@@ -34,10 +34,10 @@ class Known:
         return abs(self.away_sd) > FAR
 
 
-def known_values(study: Study, estimates: Iterable[Estimated]) -> list[Known]:
+def known_values(study: Study, estimates: Iterable[Estimated]) -> list[KnownBesideEstimate]:
     """Return the known values of those estimated parameters that have one."""
     found = [(study.known[e.name], e) for e in estimates if e.name in study.known]
-    return [Known(known.value, known.sd, known.source, e) for known, e in found]
+    return [KnownBesideEstimate(known.value, known.sd, known.source, e) for known, e in found]
 
 
 def has_known(study: Study) -> bool:

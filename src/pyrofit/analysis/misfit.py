@@ -6,7 +6,7 @@ from pyrofit.results.identification import Identified
 
 
 @dataclass(frozen=True)
-class Misfit:
+class SignalMisfit:
     """The noise of one fitted signal, and chi-square of the optimum.
 
     Parameters
@@ -34,10 +34,10 @@ class Misfit:
         return self.chi2 / self.points
 
 
-def misfits(identified: Identified) -> list[Misfit]:
+def misfits(identified: Identified) -> list[SignalMisfit]:
     """Return the misfit of every fitted signal, by stage."""
     return [
-        Misfit(stage, c.experiment, c.signal, c.points, c.words, c.chi2)
+        SignalMisfit(stage, c.experiment, c.signal, c.points, c.words, c.chi2)
         for stage, noise in identified.noise.items()
         for c in noise.channels
     ]

@@ -25,7 +25,7 @@ from scipy.fft import dct
 from scipy.special import chdtri, fdtrc
 
 from pyrofit.diagnose.base.long_run import long_run_variance
-from pyrofit.diagnose.base.prediction import forecast
+from pyrofit.diagnose.base.prediction import score_forecast
 from pyrofit.estimate.bounded_least_squares import Fit
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.noise import NoiseModel
@@ -206,7 +206,7 @@ class LeftOut:
     squares: tuple[float, ...]
 
 
-def predicted(whole: Fit, likelihood: Likelihood, part: Fit, left: Sequence[int]) -> LeftOut:
+def predicted_score(whole: Fit, likelihood: Likelihood, part: Fit, left: Sequence[int]) -> LeftOut:
     """Return the score of signals that a part of a model's fit predicts.
 
     Parameters
@@ -223,7 +223,7 @@ def predicted(whole: Fit, likelihood: Likelihood, part: Fit, left: Sequence[int]
     if curves is not None:
         parts, terms = likelihood.split(curves), likelihood.problem.cost.terms
         squares = [_relative_square(parts[k], terms[k][1].target.value) for k in left]
-    return LeftOut(forecast(part, whole), tuple(squares))
+    return LeftOut(score_forecast(part, whole), tuple(squares))
 
 
 def _relative_square(curve: FloatArray, value: FloatArray) -> float:

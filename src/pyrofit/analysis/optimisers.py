@@ -47,7 +47,7 @@ def comparison(
         **row,
         "lowest_by": OPTIMISERS[min(lowest, key=lambda name: lowest[name])].words,
         "ratio": theirs / ours if ours > 0.0 else None,
-        "remark": remark(ours, theirs, descent),
+        "remark": who_is_ahead(ours, theirs, descent),
     }
 
 
@@ -65,7 +65,7 @@ def _starts(name: str, starts: list[End]) -> dict[str, object]:
     }
 
 
-def remark(sceua: float, others: float, descent: float) -> str:
+def who_is_ahead(sceua: float, others: float, descent: float) -> str:
     """Say who is ahead; ``descent`` is the cost that least squares reaches from SCE-UA's best."""
     if others < (1.0 - LOWER) * sceua:
         return LOCAL_OPTIMUM if descent >= (1.0 - LOWER) * sceua else NOT_A_MINIMUM

@@ -15,7 +15,7 @@ def rank_correlation(study: Study, results: Results) -> pd.DataFrame:
     the same value has no correlation; its entry is 0.
     """
     names = list(study.imp.estimate)
-    summary = searches.summary(study, results)
+    summary = searches.best_of_repetitions(study, results)
     ranks = summary.groupby("cost_function")[names].rank()
     ranks = ranks - ranks.groupby(summary["cost_function"]).transform("mean")
     matrix = ranks.corr().fillna(0.0).to_numpy(copy=True)

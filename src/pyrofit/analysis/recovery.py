@@ -15,7 +15,7 @@ Set = Mapping[str, float] | pd.Series
 """A set of parameters, SI units."""
 
 
-def known(study: Study) -> list[str]:
+def fits_to_computed(study: Study) -> list[str]:
     """Return the fits to computed signals alone: 'kinetics' and names of cost functions."""
     stages: dict[str, Iterable[TermSpec]] = dict(study.imp.costs)
     if study.kinetics is not None:
@@ -39,14 +39,14 @@ def truth(study: Study, results: Results) -> pd.DataFrame:
         in per cent, none of a truth that is 0.
     """
     rows = []
-    for fit in known(study):
+    for fit in fits_to_computed(study):
         if fit == KINETICS:
             assert study.kinetics is not None
             estimate, found = study.kinetics.estimate, _kinetics(study, study.kinetics, results)
         else:
             estimate, found = study.imp.estimate, _imp(study, results, fit)
         rows += [
-            compared(study, fit, name, {by: float(best[name]) for by, best in found.items()})
+            recovery_row(study, fit, name, {by: float(best[name]) for by, best in found.items()})
             for name in estimate
         ]
     return pd.DataFrame(rows)
@@ -58,15 +58,15 @@ def _kinetics(study: Study, stage: Kinetics, results: Results) -> Mapping[str, S
     )
     return {
         "sceua": _lowest(history),
-        "least_squares": _best(kinetics.fit(study, results).least_squares),
+        "least_squares": _best(kinetics.read_fit(study, results).least_squares),
     }
 
 
 def _imp(study: Study, results: Results, cost: str) -> Mapping[str, Set]:
-    summary = searches.summary(study, results)
+    summary = searches.best_of_repetitions(study, results)
     return {
         "sceua": _lowest(summary[summary["cost_function"] == cost]),
-        **{key: _best(searches.starts(study, results, cost, key)) for key in OPTIMISERS},
+        **{key: _best(searches.read_starts(study, results, cost, key)) for key in OPTIMISERS},
     }
 
 
@@ -78,7 +78,9 @@ def _best(starts: list[End]) -> dict[str, float]:
     return min(starts, key=lambda start: start.cost).parameters
 
 
-def compared(study: Study, fit: str, name: str, found: Mapping[str, float]) -> dict[str, object]:
+def recovery_row(
+    study: Study, fit: str, name: str, found: Mapping[str, float]
+) -> dict[str, object]:
     """Return one row: the truth of a parameter beside its estimates by optimiser, SI units."""
     assert study.synthetic is not None
     parameter = study.parameters[name]

@@ -23,7 +23,7 @@ class Differing:
 
 
 @dataclass(frozen=True)
-class Repeated:
+class RepeatOfTest:
     """One repeat of a test: its signals, those of other repeats that it lacks, its differences."""
 
     test: str
@@ -33,7 +33,7 @@ class Repeated:
     differing: tuple[Differing, ...]
 
 
-def repeated(study: Study, estimates: Iterable[Estimated]) -> list[Repeated]:
+def repeats_of_tests(study: Study, estimates: Iterable[Estimated]) -> list[RepeatOfTest]:
     """Return all repeats of the study's tests, in its order."""
     by_name = {e.name: e for e in estimates}
     of_tests: dict[str, dict[str, None]] = {}
@@ -51,7 +51,7 @@ def repeated(study: Study, estimates: Iterable[Estimated]) -> list[Repeated]:
         differing = [Differing(k, v.value, v.sd, by_name[nuisances[k]]) for k, v in known.items()]
         own = tuple(experiment.signals)
         missing = tuple(s for s in of_tests[test] if s not in own)
-        found.append(Repeated(test, name, own, missing, tuple(differing)))
+        found.append(RepeatOfTest(test, name, own, missing, tuple(differing)))
     return found
 
 

@@ -15,7 +15,7 @@ WIDE_SPREAD = 0.20
 
 
 @dataclass(frozen=True)
-class Repeated:
+class OverRepetitions:
     """A parameter, or the cost, over the repetitions of one cost function.
 
     Parameters
@@ -52,7 +52,7 @@ class Repeated:
         return self.sigma > WIDE_SPREAD * (self.upper - self.lower)
 
 
-def repeated(study: Study, repetitions: pd.DataFrame) -> list[Repeated]:
+def repeated(study: Study, repetitions: pd.DataFrame) -> list[OverRepetitions]:
     """Return the cost and the parameters of every cost function."""
     found = []
     for cost in study.imp.costs:
@@ -71,5 +71,7 @@ def _of(
     values: pd.Series,
     best: float,
     limits: tuple[float | None, float | None],
-) -> Repeated:
-    return Repeated(cost, name, best, float(values.mean()), float(values.std(ddof=1)), *limits)
+) -> OverRepetitions:
+    return OverRepetitions(
+        cost, name, best, float(values.mean()), float(values.std(ddof=1)), *limits
+    )

@@ -58,12 +58,12 @@ def strata(costs: FloatArray, count: int) -> NDArray[np.int64]:
     return order[np.arange(count) * order.size // count]
 
 
-def shares(sizes: Sequence[int], total: int) -> list[int]:
+def shares_of_histories(sizes: Sequence[int], total: int) -> list[int]:
     """Return how many sets are taken of each history, the same of each as far as it has them.
 
     Histories that are too short leave their share to the others.
 
-    >>> shares([10, 3, 10], 15)
+    >>> shares_of_histories([10, 3, 10], 15)
     [6, 3, 6]
     """
     taken = [0] * len(sizes)

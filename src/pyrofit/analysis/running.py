@@ -6,13 +6,13 @@ import pandas as pd
 from pyrofit.solver.arrays import FloatArray
 
 
-def running_mean(series: pd.Series) -> pd.Series:
+def smoothed(series: pd.Series) -> pd.Series:
     """Return the mean over windows of 3 % of the points, an odd number, shorter at the ends."""
     window = 2 * (int(0.03 * len(series)) // 2) + 1
     return series.rolling(window, center=True, min_periods=1).mean()
 
 
-def running_minima(frame: pd.DataFrame, abscissa: str) -> tuple[FloatArray, FloatArray]:
+def minima_on_one_axis(frame: pd.DataFrame, abscissa: str) -> tuple[FloatArray, FloatArray]:
     """Return the steps of all repetitions' running minima on one axis.
 
     Parameters

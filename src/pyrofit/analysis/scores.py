@@ -42,7 +42,7 @@ class Score:
     solver: float
 
 
-def scores(study: Study, predicted: pd.DataFrame) -> list[Score]:
+def scores_of_sets(study: Study, predicted: pd.DataFrame) -> list[Score]:
     """Return the scores, experiments and signals together, in the order of their first set."""
     sets = {chosen.label: chosen for chosen in predicted_sets(study)}
     found = []

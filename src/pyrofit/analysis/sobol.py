@@ -65,7 +65,7 @@ def design(count: int, inputs: int, seed: int) -> FloatArray:
     return points
 
 
-def filled(outputs: FloatArray, seed: int) -> tuple[FloatArray, int]:
+def replace_failed(outputs: FloatArray, seed: int) -> tuple[FloatArray, int]:
     """Replace base points of which a run failed by others, drawn by the seed; return how many.
 
     ``outputs`` has the shape (count, inputs + 2, outputs). SciPy takes a power of two of them.

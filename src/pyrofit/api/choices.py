@@ -10,7 +10,7 @@ import pandas as pd
 
 from pyrofit.api.arguments import word_of
 from pyrofit.config import Study, parameters_in
-from pyrofit.config.check.numbers import described
+from pyrofit.config.check.numbers import parts_with_numbers
 from pyrofit.config.resolve import diagnosed_material
 from pyrofit.config.uses import parameters_of_heated
 from pyrofit.errors import StudyError, suggest
@@ -33,7 +33,7 @@ def si_values(
 ) -> dict[str, float]:
     """Return values in SI units; they are given in the units of the study.
 
-    Who checks many sets gives `places_of` the study.
+    Who checks many sets gives `places_of_parameter` the study.
 
     Raises
     ------
@@ -58,7 +58,7 @@ def si_values(
         if not (isinstance(value, Real) and math.isfinite(value)):
             raise StudyError(f"parameter '{name}': {value!r} is no finite number")
         found[name] = float(value) * study.parameters[name].factor
-    _check_rules(study, found, places_of(study) if places is None else places)
+    _check_rules(study, found, places_of_parameter(study) if places is None else places)
     return found
 
 
@@ -94,11 +94,11 @@ def si_columns(study: Study, given: pd.DataFrame) -> dict[str, FloatArray]:
     }
 
 
-def places_of(study: Study) -> list[Place]:
+def places_of_parameter(study: Study) -> list[Place]:
     """Return the places of the description at which a parameter or an expression stands."""
     return [
         (place, number, rules)
-        for root, part in described(study).items()
+        for root, part in parts_with_numbers(study).items()
         for place, number, rules in numbers(part, root)
         if isinstance(number, str)
     ]
@@ -216,22 +216,22 @@ def signals_of(study: Study, given: Signals) -> list[Key]:
     """
     if not isinstance(given, Mapping):
         alone = isinstance(given, str) or _is_key(study, given)
-        listed = [given] if alone else names_of("signals", given)
+        listed = [given] if alone else names_given("signals", given)
         return [pair for one in listed for pair in _pairs(study, one)]
     pairs: list[Key] = []
     for name in experiments_of(study, given):
         wanted = given[name]
-        wanted = [wanted] if isinstance(wanted, str) else names_of(f"signals of {name}", wanted)
+        wanted = [wanted] if isinstance(wanted, str) else names_given(f"signals of {name}", wanted)
         pairs += [key_of(study, (name, signal)) for signal in wanted]
     return pairs
 
 
-def names_of(argument: str, given: Any) -> list[Any]:
+def names_given(argument: str, given: Any) -> list[Any]:
     """Return the items of an argument that lists names.
 
-    >>> names_of("estimate", ("k", "cp"))
+    >>> names_given("estimate", ("k", "cp"))
     ['k', 'cp']
-    >>> names_of("estimate", 3)
+    >>> names_given("estimate", 3)
     Traceback (most recent call last):
     pyrofit.errors.StudyError: estimate: a list of names is needed, and this is a int: 3
     """

@@ -9,7 +9,7 @@ import pandas as pd
 
 from pyrofit.api import plots
 from pyrofit.api.choices import Key, Signals, complete, si_values, signals_of, with_kinetics_of
-from pyrofit.api.measurements import Data, measured
+from pyrofit.api.measurements import Data, read_measured
 from pyrofit.api.simulation import at_times, simulated
 from pyrofit.api.studies import Source, read_study
 from pyrofit.api.tables import html_page, text_table
@@ -54,10 +54,10 @@ def compare(
     study = with_kinetics_of(read_study(study), kinetics)
     keys = signals_of(study, list(study.experiments) if signals is None else signals)
     every = complete(study, si_values(study, values), {name for name, _ in keys})
-    return compared(study, every, measured(study, keys, data))
+    return series_compared(study, every, read_measured(study, keys, data))
 
 
-def compared(
+def series_compared(
     study: Study, values: Mapping[str, float], series: Mapping[Key, pd.DataFrame]
 ) -> "Comparison":
     """Return measured series beside those of SI values."""
@@ -130,7 +130,7 @@ class Comparison:
         """Draw measured and simulated curve on ``ax``, by default on a new one."""
         key = plots.chosen(list(self.measured), experiment, signal)
         ax = plots.axes_of(ax)
-        plots.comparison(ax, self.study, key, self.measured[key], self.simulated[key])
+        plots.draw_comparison(ax, self.study, key, self.measured[key], self.simulated[key])
         return ax
 
     def plot_residuals(
@@ -142,14 +142,14 @@ class Comparison:
         """Draw simulated less measured values on ``ax``, by default on a new one."""
         key = plots.chosen(list(self.measured), experiment, signal)
         ax = plots.axes_of(ax)
-        plots.residuals(ax, self.study, key, self.measured[key], self.simulated[key])
+        plots.draw_residuals(ax, self.study, key, self.measured[key], self.simulated[key])
         return ax
 
     def plot_all(self) -> "list[Axes]":
         """Draw all signals, a panel for each."""
         axes = plots.new_panels(len(self.measured))
         for ax, key in zip(axes, self.measured, strict=True):
-            plots.comparison(ax, self.study, key, self.measured[key], self.simulated[key])
+            plots.draw_comparison(ax, self.study, key, self.measured[key], self.simulated[key])
         return axes
 
     def __str__(self) -> str:

@@ -116,7 +116,7 @@ class Curves:
         """Draw a signal on ``ax``, by default on a new one; ``style`` goes to Matplotlib."""
         key = plots.chosen(list(self.series), experiment, signal)
         ax = plots.axes_of(ax)
-        plots.series(ax, self.study, key, self.series[key], {"label": self.words, **style})
+        plots.draw_series(ax, self.study, key, self.series[key], {"label": self.words, **style})
         return ax
 
     def __repr__(self) -> str:
@@ -144,7 +144,7 @@ class Curves:
         return html_page(f"{self.words} series of {self.study.name}", [("", table)])
 
 
-def with_units(frame: pd.DataFrame, quantity: Quantity) -> pd.DataFrame:
+def with_unit_attributes(frame: pd.DataFrame, quantity: Quantity) -> pd.DataFrame:
     """Return a series that has the units of its columns in ``attrs``."""
     units = {"time_s": "s", "temperature_K": "K"}
     frame = frame.reset_index(drop=True)

@@ -8,20 +8,20 @@ import pandas as pd
 
 from pyrofit.api import plots
 from pyrofit.api.arguments import count_of, teller_of
-from pyrofit.api.choices import Key, names_of
-from pyrofit.api.measurements import Data, given_keys, measured
+from pyrofit.api.choices import Key, names_given
+from pyrofit.api.measurements import Data, given_keys, read_measured
 from pyrofit.api.studies import Source, read_study
 from pyrofit.api.tables import html_page, text_table
 from pyrofit.config import Study, as_study, calibration_channels, held_out_channels
-from pyrofit.diagnose.diagnosis import Diagnosis as Found
+from pyrofit.diagnose.diagnosis import DiagnosisWork as Found
 from pyrofit.diagnose.diagnosis import examine
 from pyrofit.diagnose.result.extended_study import extended_keys
 from pyrofit.errors import StudyError
 from pyrofit.results.diagnosis_schema import Diagnosis as Record
 from pyrofit.show.diagnosis.evidence import evidence_of
 from pyrofit.show.diagnosis.ranking import draw_ranking, ranking_entries
-from pyrofit.show.diagnosis.sentences import certainty, facts
-from pyrofit.show.diagnosis.words import ranked, remark
+from pyrofit.show.diagnosis.sentences import certainty, summary_sentences
+from pyrofit.show.diagnosis.words import ranked, remark_on_candidate
 from pyrofit.stages.diagnose import refuse_programs
 
 if TYPE_CHECKING:
@@ -66,7 +66,7 @@ def diagnose(
         A series is missing or too short, or no run within the limits finishes.
     """
     names = [effects] if isinstance(effects, str) else effects
-    names = None if names is None else names_of("effects", names)
+    names = None if names is None else names_given("effects", names)
     if names is not None and not names:
         raise StudyError("no effect is named; leave `effects` out to try all that can show")
     count_of("processes", processes)
@@ -76,7 +76,7 @@ def diagnose(
     refuse_programs(study)
     channels = (*calibration_channels(study), *held_out_channels(study))
     keys = [(c.experiment, c.signal) for c in channels]
-    series = measured(study, keys, data)
+    series = read_measured(study, keys, data)
     _refuse_mixture(study, keys, given_keys(study, data))
     found = examine(study, series, tell, processes, advise)
     return Diagnosis(study, found)
@@ -145,7 +145,7 @@ class Diagnosis:
                 "chi2": candidate.chi2,
                 "penalised": candidate.penalised,
                 "gain": candidate.gain,
-                "remark": remark(self._record, candidate),
+                "remark": remark_on_candidate(self._record, candidate),
             }
             for candidate in ranked(self._record)
         ]
@@ -204,7 +204,7 @@ class Diagnosis:
         return [*evidence, ("Candidates", self.ranking.head(SHOWN))]
 
     def _lines(self) -> list[str]:
-        return [*facts(self._record), certainty(self.study, self._record)]
+        return [*summary_sentences(self._record), certainty(self.study, self._record)]
 
     def plot_ranking(self, ax: "Axes | None" = None) -> "Axes":
         """Draw the candidates on ``ax``, by default on a new one."""
@@ -212,7 +212,7 @@ class Diagnosis:
             raise StudyError("no effect was fitted: there is nothing to rank")
         ax = plots.wide_axes(len(self.ranking)) if ax is None else plots.axes_of(ax)
         draw_ranking(ax, self._record)
-        plots.legend_below(ax, ranking_entries(self._record))
+        plots.legend_below_label(ax, ranking_entries(self._record))
         return ax
 
     def plot(
@@ -227,7 +227,7 @@ class Diagnosis:
         key = plots.chosen(keys, experiment, signal)
         ax = plots.axes_of(ax)
         here = (self.curves["experiment"] == key[0]) & (self.curves["signal"] == key[1])
-        plots.diagnosed(ax, self.study, key, self.curves[here], bool(self.effects))
+        plots.draw_diagnosed(ax, self.study, key, self.curves[here], bool(self.effects))
         return ax
 
     def __str__(self) -> str:

@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.api.arguments import word_of
-from pyrofit.api.given_tables import as_table, named
+from pyrofit.api.given_tables import as_table, named_in_memory
 from pyrofit.config import Study, as_study
 from pyrofit.config.keys.study import IN_MEMORY
 from pyrofit.config.yaml_file import read_mapping
@@ -84,12 +84,12 @@ def new_study(name: str, **given: Given) -> Study:
         try:
             text, records, copied = drafted(name, paths)
         except (DataError, StudyError) as error:
-            raise type(error)(named(str(error), labels)) from None
+            raise type(error)(named_in_memory(str(error), labels)) from None
         draft = Path(folder) / "draft.yaml"
         draft.write_text(text, encoding="utf-8")
         keys = read_mapping(draft)
     for line in [*copied, *assumed(records)]:
-        warnings.warn(f"study '{name}': {named(line, labels)}", stacklevel=2)
+        warnings.warn(f"study '{name}': {named_in_memory(line, labels)}", stacklevel=2)
     where = {
         f"data/{record.name}.csv": IN_MEMORY if str(record.path) in labels else str(record.path)
         for record in records

@@ -15,7 +15,7 @@ from pyrofit.api.choices import Key, Signals, used_by
 from pyrofit.api.comparison import Comparison, compare
 from pyrofit.api.fit_json import as_json, fields_of
 from pyrofit.api.measurements import Data
-from pyrofit.api.report import Report, html_of, text_of
+from pyrofit.api.report import Report, html_of, text_of_report
 from pyrofit.config import Study
 from pyrofit.errors import StudyError
 from pyrofit.numerics import functions
@@ -139,7 +139,7 @@ class Fit:
     def report(self, correlations_above: float = 0.3) -> str:
         """Return the report as text; it lists correlations above a size."""
         above = number_of("correlations_above", correlations_above)
-        return text_of(self._contents(), above)
+        return text_of_report(self._contents(), above)
 
     def summary(self) -> str:
         """Return the verdict in sentences, then each estimate with its interval, as text."""
@@ -217,7 +217,7 @@ class Fit:
         if self.correlation is None:
             raise StudyError("a fit of a cost has no correlations; leave out `cost`")
         ax = plots.axes_of(ax)
-        plots.correlation(ax, self.correlation)
+        plots.draw_correlation(ax, self.correlation)
         return ax
 
     def __str__(self) -> str:

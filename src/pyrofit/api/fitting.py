@@ -6,7 +6,7 @@ from typing import Literal
 
 from pyrofit.api.arguments import count_of, teller_of, word_of
 from pyrofit.api.choices import Signals, in_units, si_values, with_kinetics_of
-from pyrofit.api.comparison import compared
+from pyrofit.api.comparison import series_compared
 from pyrofit.api.fit_tables import (
     correlation_table,
     derived_table,
@@ -15,7 +15,7 @@ from pyrofit.api.fit_tables import (
     signals_table,
 )
 from pyrofit.api.fitted import Fit
-from pyrofit.api.measurements import Data, given_keys, measured
+from pyrofit.api.measurements import Data, given_keys, read_measured
 from pyrofit.api.own_cost import OwnCost
 from pyrofit.api.searching import check_cost, check_optimiser, fit_cost, fit_own_cost
 from pyrofit.api.studies import Source, read_study
@@ -164,7 +164,7 @@ def fit_likelihood(
     """Return the fit of highest likelihood with its intervals."""
     study, own_weights = task.study, weights_of(task.study, task.keys, weights)
     begin = initial_of(study, task.estimate, initial)
-    series = measured(study, task.keys, data)
+    series = read_measured(study, task.keys, data)
     asked = of_diagnosis(study, task.channels, task.estimate)
     unweighted = pose_likelihood(study, asked, series, task.fixed)
     likelihood = weighted(unweighted, own_weights)
@@ -178,7 +178,7 @@ def fit_likelihood(
     found = identify(likelihood, [first], profiles)
     x = likelihood.values(found.optimum.x)
     values = problem.values(x)
-    scored = compared(study, values, series)
+    scored = series_compared(study, values, series)
     own = in_units(study, {n: v for n, v in values.items() if n in study.parameters})
     made = Fit(
         study=study,

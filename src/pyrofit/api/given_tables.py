@@ -13,12 +13,12 @@ from pyrofit.quantities.base import Quantity
 _LINE = re.compile(r"\bline (\d+)\b")
 
 
-def named(text: str, labels: Mapping[str, str]) -> str:
+def named_in_memory(text: str, labels: Mapping[str, str]) -> str:
     """Return a message that names series in memory instead of the files they were written to.
 
     Lines of such a file, below its header, become indices from 0.
 
-    >>> print(named("x/a.csv, line 12: given 'x'", {"x/a.csv": "data of a"}))
+    >>> print(named_in_memory("x/a.csv, line 12: given 'x'", {"x/a.csv": "data of a"}))
     data of a, index 10: given 'x'
     """
     lines = text.splitlines()

@@ -20,7 +20,7 @@ from pyrofit.analysis.isoconversional.records import (
 )
 from pyrofit.api.arguments import number_of
 from pyrofit.api.choices import complete, si_values
-from pyrofit.api.measurements import Data, measured
+from pyrofit.api.measurements import Data, read_measured
 from pyrofit.api.studies import Source, read_study
 from pyrofit.config import Study
 from pyrofit.config.resolve import diagnosed_material
@@ -124,7 +124,7 @@ def isoconversional(
             f"study '{described.name}' has no mass of {FEWEST} heating programmes: activation "
             "energies come from the differences between programmes. Add TGA at other rates"
         )
-    series = measured(described, list(masses(described).items()), data)
+    series = read_measured(described, list(masses(described).items()), data)
     model = [] if values is None else _model(described, values, series)
     return _result(_analysed(measured_curves(described, series), model, temperature_sd_K))
 

@@ -9,8 +9,8 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.api.choices import Key, Signals, key_of, signals_of
-from pyrofit.api.curves import MEASURED, Curves, with_units
-from pyrofit.api.given_tables import as_table, indexed, named
+from pyrofit.api.curves import MEASURED, Curves, with_unit_attributes
+from pyrofit.api.given_tables import as_table, indexed, named_in_memory
 from pyrofit.api.studies import Source, read_study
 from pyrofit.config import Study
 from pyrofit.errors import DataError
@@ -55,17 +55,22 @@ def read_data(study: Source, signals: Signals | None = None, data: Data | None =
     """
     study = read_study(study)
     wanted = signals_of(study, list(study.experiments) if signals is None else signals)
-    return Curves(study, measured(study, wanted, data), MEASURED)
+    return Curves(study, read_measured(study, wanted, data), MEASURED)
 
 
-def measured(study: Study, wanted: Iterable[Key], data: Data | None) -> dict[Key, pd.DataFrame]:
+def read_measured(
+    study: Study, wanted: Iterable[Key], data: Data | None
+) -> dict[Key, pd.DataFrame]:
     """Return some measured series; only these are read or computed."""
     given = _given(study, data)
     keys = list(dict.fromkeys(wanted))
     checked = {key: given[key] for key in keys if key in given and _is_checked(study, key, data)}
     rest = _read_or_computed(study, [key for key in keys if key not in checked], given)
     found = checked | rest
-    return {key: with_units(found[key], study.experiments[key[0]].quantity(key[1])) for key in keys}
+    return {
+        key: with_unit_attributes(found[key], study.experiments[key[0]].quantity(key[1]))
+        for key in keys
+    }
 
 
 def _is_checked(study: Study, key: Key, data: Data | None) -> bool:
@@ -179,7 +184,7 @@ def _read(study: Study, labels: Mapping[str, str]) -> dict[Key, pd.DataFrame]:
             frame.attrs["notes"] = [indexed(n) if in_memory else n for n in about.notes]
             found[key] = frame
     except DataError as error:
-        raise DataError(named(str(error), labels)) from None
+        raise DataError(named_in_memory(str(error), labels)) from None
     lacking = {
         name
         for name, experiment in study.experiments.items()

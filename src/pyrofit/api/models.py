@@ -16,7 +16,7 @@ from pyrofit.analysis.model_comparison import (
     descended,
     f_test,
     f_test_of_lasting,
-    predicted,
+    predicted_score,
 )
 from pyrofit.api.arguments import teller_of
 from pyrofit.api.choices import Key, si_values
@@ -250,7 +250,7 @@ def _left_out(model: _Model, common: CommonNoise, tell: Tell, name: str) -> dict
         noise = tuple(common.noise[i] for i in rest)
         others = Likelihood(problem, noise, prior_of(model.fit.study, problem))
         part = descended(others, noise, model.minimum.x)
-        found.append(predicted(model.minimum, under, part, left))
+        found.append(predicted_score(model.minimum, under, part, left))
         tell(f"{name}: {group} predicted, log score {found[-1].log_score:.1f}")
     squares = [square for one in found for square in one.squares]
     score = sum(one.log_score for one in found)

@@ -7,7 +7,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from pyrofit.api.choices import Signals
-from pyrofit.api.measurements import Data, given_keys, measured
+from pyrofit.api.measurements import Data, given_keys, read_measured
 from pyrofit.api.studies import Source, read_study
 from pyrofit.api.tasks import task_of, values_within
 from pyrofit.api.weighing import Weights, weighted, weights_of
@@ -197,7 +197,7 @@ def _posed(
     values = values_within(study, "fixed", fixed)
     task = task_of(study, signals, estimate, values, None, given_keys(study, data))
     own_weights = weights_of(study, task.keys, weights)
-    series = measured(study, task.keys, data)
+    series = read_measured(study, task.keys, data)
     asked = of_diagnosis(study, task.channels, task.estimate)
     fits = [] if about is None else [_set(study, asked.names, about)]
     return study, weighted(pose_likelihood(study, asked, series, task.fixed, fits), own_weights)

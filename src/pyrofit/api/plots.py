@@ -15,7 +15,7 @@ from pyrofit.config import Study
 from pyrofit.errors import StudyError, suggest
 from pyrofit.model.heated import HeatedExperiment
 from pyrofit.show import style
-from pyrofit.show.curves import draw_band, label_of
+from pyrofit.show.curves import draw_band, label_of_axis
 from pyrofit.show.text import signed
 from pyrofit.show.units import celsius, difference, difference_unit, shown
 
@@ -72,14 +72,16 @@ def new_panels(count: int) -> list[Axes]:
     return axes[:count]
 
 
-def series(ax: Axes, study: Study, key: Key, frame: pd.DataFrame, look: Mapping[str, Any]) -> None:
+def draw_series(
+    ax: Axes, study: Study, key: Key, frame: pd.DataFrame, look: Mapping[str, Any]
+) -> None:
     """Draw a series over time, or over the temperature of a heated sample."""
     quantity = study.experiments[key[0]].quantity(key[1])
     ax.plot(_abscissa(ax, study, key, frame), shown(quantity, frame[quantity.column]), **look)
     _labels(ax, study, key)
 
 
-def comparison(
+def draw_comparison(
     ax: Axes, study: Study, key: Key, measured: pd.DataFrame, simulated: pd.DataFrame
 ) -> None:
     """Draw a measured series with its uncertainty, and the simulated one."""
@@ -94,7 +96,7 @@ def comparison(
     ax.legend(frameon=False)
 
 
-def residuals(
+def draw_residuals(
     ax: Axes, study: Study, key: Key, measured: pd.DataFrame, simulated: pd.DataFrame
 ) -> None:
     """Draw simulated less measured values; grey: the uncertainty of the measurement."""
@@ -128,7 +130,7 @@ def intervals(ax: Axes, table: pd.DataFrame) -> None:
     ax.grid(axis="x", linewidth=0.4)
 
 
-def correlation(ax: Axes, table: pd.DataFrame) -> None:
+def draw_correlation(ax: Axes, table: pd.DataFrame) -> None:
     """Draw correlations as a matrix of numbers: blue is negative, red is positive."""
     values = table.to_numpy(float)
     ax.imshow(values, cmap="RdBu_r", vmin=-1.0, vmax=1.0)
@@ -152,11 +154,11 @@ def _abscissa(ax: Axes, study: Study, key: Key, frame: pd.DataFrame) -> Any:
 
 
 def _labels(ax: Axes, study: Study, key: Key) -> None:
-    ax.set_ylabel(label_of(study, *key))
+    ax.set_ylabel(label_of_axis(study, *key))
     ax.set_title(title_of(study, key[0]), loc="left")
 
 
-def diagnosed(ax: Axes, study: Study, key: Key, curves: pd.DataFrame, extended: bool) -> None:
+def draw_diagnosed(ax: Axes, study: Study, key: Key, curves: pd.DataFrame, extended: bool) -> None:
     """Draw a measured series, the base model's curve, and that with the effects found."""
     quantity = study.experiments[key[0]].quantity(key[1])
     frame = curves.dropna(axis="columns", how="all")
@@ -170,7 +172,7 @@ def diagnosed(ax: Axes, study: Study, key: Key, curves: pd.DataFrame, extended: 
     ax.legend(frameon=False)
 
 
-def legend_below(ax: Axes, entries: Sequence[Any]) -> None:
+def legend_below_label(ax: Axes, entries: Sequence[Any]) -> None:
     """Put a legend below the label of the abscissa."""
     place = offset_copy(ax.transAxes, ax.get_figure(root=True), y=-34.0, units="points")
     ax.legend(

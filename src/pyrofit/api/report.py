@@ -34,7 +34,7 @@ class Report:
     weights: Mapping[Key, FloatArray] = field(default_factory=dict)
 
 
-def text_of(fit: Report, above: float) -> str:
+def text_of_report(fit: Report, above: float) -> str:
     """Return the report as text."""
     lines = [_title(fit), *(f"  {line}" for line in _facts(fit))]
     for heading, table in _tables(fit, above):
@@ -85,7 +85,7 @@ def _tables(fit: Report, above: float) -> Iterator[tuple[str, pd.DataFrame]]:
     columns = fit.signals.drop(columns=["cv_rmse", "chi2", *none], errors="ignore")
     yield "Signals (rmse and noise in the SI unit)", columns
     if fit.correlation is not None:
-        pairs = correlations(fit.correlation, above)
+        pairs = strong_correlations(fit.correlation, above)
         if len(pairs):
             yield f"Correlations of {above:g} or more", pairs
 
@@ -149,11 +149,11 @@ def to_sd(value: float, sd: float) -> str:
     return f"{value:.{max(0, 1 - math.floor(math.log10(sd)))}f}"
 
 
-def correlations(table: pd.DataFrame, above: float) -> pd.DataFrame:
+def strong_correlations(table: pd.DataFrame, above: float) -> pd.DataFrame:
     """Return pairs of parameters whose correlation has some size at least, the largest first.
 
     >>> both = pd.DataFrame([[1.0, -0.5], [-0.5, 1.0]], index=["k", "cp"], columns=["k", "cp"])
-    >>> correlations(both, 0.3).to_numpy().tolist()
+    >>> strong_correlations(both, 0.3).to_numpy().tolist()
     [['k', 'cp', '−0.50']]
     """
     names = list(table.index)

@@ -10,14 +10,14 @@ from pyrofit.analysis.answer import answer_values
 from pyrofit.api.arguments import path_of
 from pyrofit.api.choices import Signals, in_units
 from pyrofit.api.comparison import Comparison, compare
-from pyrofit.api.curves import MEASURED, Curves, with_units
+from pyrofit.api.curves import MEASURED, Curves, with_unit_attributes
 from pyrofit.api.tables import html_page
 from pyrofit.config import Study, read_study
 from pyrofit.errors import DataError, StudyError, suggest
 from pyrofit.results import diagnosis, recorded
 from pyrofit.results.files import Results
-from pyrofit.show.table import read_table
-from pyrofit.stages.fit import best_sets, fixed_for_imp
+from pyrofit.show.table import read_written_table
+from pyrofit.stages.fit import best_set_of_each_cost, fixed_for_imp
 
 
 class Campaign:
@@ -49,7 +49,7 @@ class Campaign:
         """Return a table by its name."""
         if name not in self.tables:
             raise DataError(f"{self.folder}: no table '{name}'. {suggest(name, self.tables)}")
-        return read_table(self._results, name)
+        return read_written_table(self._results, name)
 
     @property
     def data(self) -> Curves:
@@ -57,7 +57,7 @@ class Campaign:
         study = self.study
         found = recorded.measured(study, self._results).series
         units = {
-            key: with_units(frame, study.experiments[key[0]].quantity(key[1]))
+            key: with_unit_attributes(frame, study.experiments[key[0]].quantity(key[1]))
             for key, frame in found.items()
         }
         return Curves(study, units, MEASURED)
@@ -83,7 +83,7 @@ class Campaign:
         ``kinetics=study.imp.kinetics``.
         """
         study = self.study
-        sets = best_sets(study, self._results)
+        sets = best_set_of_each_cost(study, self._results)
         if cost not in sets:
             raise StudyError(f"study '{study.name}' has no cost '{cost}'. {suggest(cost, sets)}")
         return in_units(study, {**fixed_for_imp(study, self._results), **sets[cost]})

@@ -13,9 +13,9 @@ from pyrofit.api.choices import (
     si_values,
     with_kinetics_of,
 )
-from pyrofit.api.curves import SIMULATED, Curves, with_units
+from pyrofit.api.curves import SIMULATED, Curves, with_unit_attributes
 from pyrofit.api.ensemble import Ensemble, ensemble_of
-from pyrofit.api.measurements import Data, given_keys, measured
+from pyrofit.api.measurements import Data, given_keys, read_measured
 from pyrofit.api.studies import Source, read_study
 from pyrofit.config import Study
 from pyrofit.config.resolve import diagnosed_material
@@ -104,7 +104,7 @@ def simulate(
         }
     else:
         keys = [key for key in given_keys(study, data) if key[0] in names]
-        requests = at_times(study, measured(study, keys, data))
+        requests = at_times(study, read_measured(study, keys, data))
         names = list(requests)
     if isinstance(values, pd.DataFrame):
         columns = si_columns(study, values)
@@ -152,5 +152,5 @@ def simulated(
             if quantity.against_temperature:
                 columns["temperature_K"] = request.programme()[0]
             columns[quantity.column] = run.signals[signal]
-            found[name, signal] = with_units(pd.DataFrame(columns), quantity)
+            found[name, signal] = with_unit_attributes(pd.DataFrame(columns), quantity)
     return found

@@ -8,7 +8,7 @@ from typing import Any
 
 from pyrofit import config
 from pyrofit.config import Study, as_study
-from pyrofit.config.check.unusual import unusual
+from pyrofit.config.check.unusual import unusual_values
 from pyrofit.config.yaml_file import read_mapping
 from pyrofit.errors import StudyError
 
@@ -50,11 +50,11 @@ def read_study(source: Source, **changes: Any) -> Study:
         if not changes:
             return source
         keys = source.model_dump(mode="json")
-        new = merged(keys, changes)
+        new = merged_keys(keys, changes)
         _check_kept(keys["parameters"], new.get("parameters"))
         return _told(as_study(new, f"study '{source.name}'", located=True))
     if isinstance(source, Mapping):
-        return _told(as_study(merged(source, changes), "study"))
+        return _told(as_study(merged_keys(source, changes), "study"))
     if not isinstance(source, str | os.PathLike):
         raise StudyError(
             f"study: this is a {type(source).__name__}; give the path of a study file, a "
@@ -63,12 +63,12 @@ def read_study(source: Source, **changes: Any) -> Study:
     path = Path(source)
     if not changes:
         return _told(config.read_study(path))
-    return _told(as_study(merged(read_mapping(path), changes), str(path)))
+    return _told(as_study(merged_keys(read_mapping(path), changes), str(path)))
 
 
 def _told(study: Study) -> Study:
     """Return the study; warn of its unusual values and names."""
-    for line in unusual(study):
+    for line in unusual_values(study):
         warnings.warn(f"study '{study.name}': {line}", stacklevel=3)
     return study
 
@@ -94,10 +94,10 @@ def _check_kept(old: Mapping[str, Any], new: Any) -> None:
             )
 
 
-def merged(given: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+def merged_keys(given: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
     """Return keys with changes.
 
-    >>> merged({"a": {"b": 1, "c": 2}}, {"a.b": 3, "a.c": None, "d": 4})
+    >>> merged_keys({"a": {"b": 1, "c": 2}}, {"a.b": 3, "a.c": None, "d": 4})
     {'a': {'b': 3}, 'd': 4}
     """
     result = dict(given)
@@ -109,6 +109,6 @@ def merged(given: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, An
             continue
         if isinstance(new, Mapping):
             old = result.get(key)
-            new = merged(old if isinstance(old, Mapping) else {}, new)
+            new = merged_keys(old if isinstance(old, Mapping) else {}, new)
         result[key] = new
     return result

@@ -11,7 +11,7 @@ from pyrofit.api.choices import (
     Signals,
     check_parameter,
     complete,
-    names_of,
+    names_given,
     si_values,
     signals_of,
     used_by,
@@ -116,7 +116,9 @@ def task_of(
         shown = used_by(study, experiments)
         names = tuple(name for name in names if name in shown and name not in fixed)
     else:
-        names = tuple([estimate] if isinstance(estimate, str) else names_of("estimate", estimate))
+        names = tuple(
+            [estimate] if isinstance(estimate, str) else names_given("estimate", estimate)
+        )
         _refuse_twice("estimate", names)
     for name in names:
         check_parameter(study, name)

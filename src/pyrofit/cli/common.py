@@ -35,10 +35,10 @@ def add_own_options(command: argparse.ArgumentParser, step: Step) -> None:
 
 def cores(text: str) -> int:
     """Return a number of processes from its text."""
-    return whole(text, 1, MOST_CORES)
+    return whole_number(text, 1, MOST_CORES)
 
 
-def whole(text: str, least: int, most: int, more: str = "") -> int:
+def whole_number(text: str, least: int, most: int, more: str = "") -> int:
     """Return a whole number from its text; ``more`` tells what else may be given."""
     if not text.isdigit() or not least <= int(text) <= most:
         raise argparse.ArgumentTypeError(
@@ -72,7 +72,7 @@ def open_study(
     """
     from pyrofit.config import digest, read_study
     from pyrofit.config.expand.programs import externals, keeping_runs
-    from pyrofit.external.scratch import sweep
+    from pyrofit.external.scratch import sweep_scratch
     from pyrofit.results.files import Results
     from pyrofit.running.lock import job
 
@@ -92,6 +92,6 @@ def open_study(
     root = given.results or Path("results") / study.name
     given.until_end.enter_context(job(root))
     if externals(study):
-        sweep()
+        sweep_scratch()
         study = keeping_runs(study, root / "programs")
     return study, Results(root)

@@ -20,10 +20,10 @@ def _diagnose(given: argparse.Namespace) -> None:
     from pyrofit.results import dependencies
     from pyrofit.stages import diagnose, measurements
 
-    study, results = open_study(given, dependencies.diagnose)
+    study, results = open_study(given, dependencies.diagnose_slice)
     if given.digest is None:  # by hand, without the workflow that has read the measurements
         measurements.prepare(study, results)
-    diagnose.diagnose(study, results, lambda text: print(text, file=sys.stderr), given.cores)
+    diagnose.diagnose_study(study, results, lambda text: print(text, file=sys.stderr), given.cores)
     if given.digest is None:
         _diagnosis_page(given)
 

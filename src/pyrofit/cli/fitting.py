@@ -55,7 +55,7 @@ def _prepare(given: argparse.Namespace) -> None:
     from pyrofit.results import dependencies
     from pyrofit.stages import measurements
 
-    for line in measurements.prepare(*open_study(given, dependencies.data)):
+    for line in measurements.prepare(*open_study(given, dependencies.data_slice)):
         print(f"mass closure: {line}", file=sys.stderr)
 
 
@@ -63,7 +63,7 @@ def _trial(given: argparse.Namespace) -> None:
     from pyrofit.results import dependencies
     from pyrofit.stages import trial
 
-    study, results = open_study(given, dependencies.trial)
+    study, results = open_study(given, dependencies.trial_slice)
     for line in trial.trial(study, results, given.cores):
         print(line, file=sys.stderr)
 
@@ -109,7 +109,7 @@ def _collect(given: argparse.Namespace) -> None:
     from pyrofit.results import dependencies
     from pyrofit.stages import fit
 
-    fit.collect(*open_study(given, dependencies.collect))
+    fit.collect(*open_study(given, dependencies.collect_slice))
 
 
 def _identify(given: argparse.Namespace) -> None:
@@ -119,14 +119,14 @@ def _identify(given: argparse.Namespace) -> None:
     if given.stage == "kinetics":
         identify.identify_kinetics(*open_study(given, dependencies.kinetics))
     else:
-        identify.identify_imp(*open_study(given, dependencies.identify))
+        identify.identify_imp(*open_study(given, dependencies.identify_slice))
 
 
 def _isoconversional(given: argparse.Namespace) -> None:
     from pyrofit.results import dependencies
     from pyrofit.stages import isoconversional, measurements
 
-    study, results = open_study(given, dependencies.isoconversional)
+    study, results = open_study(given, dependencies.isoconversional_slice)
     if given.digest is None:  # by hand, without the workflow that has read the measurements
         measurements.prepare(study, results)
     isoconversional.analyse_masses(study, results, tell)
@@ -136,11 +136,11 @@ def _predict(given: argparse.Namespace) -> None:
     from pyrofit.results import dependencies
     from pyrofit.stages import predict
 
-    predict.predict(*open_study(given, dependencies.validation))
+    predict.predict_sets(*open_study(given, dependencies.validation_slice))
 
 
 def _compare(given: argparse.Namespace) -> None:
     from pyrofit.results import dependencies
     from pyrofit.stages import compare
 
-    compare.compare(*open_study(given, dependencies.compare))
+    compare.compare(*open_study(given, dependencies.compare_slice))

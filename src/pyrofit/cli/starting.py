@@ -48,14 +48,16 @@ def add(commands: Any) -> None:
     )
     check.set_defaults(step=_check)
 
-    ready = commands.add_parser("doctor", help="check study and machine before a long run")
-    ready.add_argument("study", type=Path, nargs="?", help="study file; without: the machine alone")
-    ready.add_argument("--results", type=Path, help="results folder; default results/<name>")
-    ready.add_argument("--cores", type=int, help="jobs at once; default: those of the profile")
-    ready.add_argument(
+    doctor = commands.add_parser("doctor", help="check study and machine before a long run")
+    doctor.add_argument(
+        "study", type=Path, nargs="?", help="study file; without: the machine alone"
+    )
+    doctor.add_argument("--results", type=Path, help="results folder; default results/<name>")
+    doctor.add_argument("--cores", type=int, help="jobs at once; default: those of the profile")
+    doctor.add_argument(
         "--profile", type=Path, metavar="FOLDER", help="Snakemake profile, such as profiles/slurm"
     )
-    ready.set_defaults(step=_ready)
+    doctor.set_defaults(step=_doctor)
 
 
 def _fetch(given: argparse.Namespace) -> None:
@@ -155,7 +157,7 @@ _PAGES = {
 def _check(given: argparse.Namespace) -> None:
     from pyrofit.analysis.differing_repeats import DIFFERS
     from pyrofit.config import read_study
-    from pyrofit.config.check.unusual import unusual
+    from pyrofit.config.check.unusual import unusual_values
     from pyrofit.config.expand.programs import externals
     from pyrofit.data.suspect import LOOK
     from pyrofit.external.filled import executable_of
@@ -172,7 +174,7 @@ def _check(given: argparse.Namespace) -> None:
         except ProgramError as error:
             print(f"experiments.{name}: not here: {error}")
     marked = marked_lines(given.study.read_text(encoding="utf-8"))
-    sentences = unusual(study)
+    sentences = unusual_values(study)
     if marked:
         lines = f"{'lines' if len(marked) > 1 else 'line'} {', '.join(map(str, marked))}"
         sentences.append(f"set the values marked {MARK} and delete this word: {lines}")
@@ -196,14 +198,14 @@ def _preview(study: Any, measured: dict[tuple[str, str], Any], folder: Path | No
     from pyrofit.results.files import Results
     from pyrofit.stages.measurements import computed
     from pyrofit.steps.preview.compute import preview
-    from pyrofit.steps.preview.figures import draw_all
-    from pyrofit.steps.preview.sentences import said
+    from pyrofit.steps.preview.figures import draw_experiments
+    from pyrofit.steps.preview.sentences import sentences_on
 
     made = preview(study, measured | (computed(study, fast=True) if study.is_synthetic else {}))
-    for sentence in said(study, made.found):
+    for sentence in sentences_on(study, made.found):
         print(sentence)
     if folder is not None:
-        draw_all(study, made.bands, made.found, Results(folder), ".")
+        draw_experiments(study, made.bands, made.found, Results(folder), ".")
 
 
 def _say_plugins(study: Path, refused: bool) -> None:
@@ -230,11 +232,11 @@ def _say_plugins(study: Path, refused: bool) -> None:
     print(f"warning: {study}: plugins: runs the programs in {folders}", file=sys.stderr)
 
 
-def _ready(given: argparse.Namespace) -> int:
-    from pyrofit.ready.report import findings
+def _doctor(given: argparse.Namespace) -> int:
+    from pyrofit.doctor.report import check_all
 
     worst = 0
-    for finding in findings(given.study, given.results, given.cores, given.profile):
+    for finding in check_all(given.study, given.results, given.cores, given.profile):
         print(finding, flush=True)
         worst = max(worst, finding.level == "error")
     return int(worst)

@@ -37,10 +37,10 @@ def parameters_of_heated(material: Material, quantities: Iterable[Quantity] = ()
     cold = {key: 0.0 for key in HEATS if key not in keys}
     kinetics = [reaction.model_copy(update=cold) for reaction in material.reactions.values()]
     used = parameters_in(*kinetics) | names_in(material.composition)
-    return used | {name for leaf in numbers_of(material, keys) for name in named_by(leaf)}
+    return used | {name for leaf in numbers_in_keys(material, keys) for name in named_by(leaf)}
 
 
-def numbers_of(material: Material, keys: Collection[str]) -> list[float | str]:
+def numbers_in_keys(material: Material, keys: Collection[str]) -> list[float | str]:
     """Return the numbers that keys of components and reactions hold."""
     parts = [*material.components.values(), *material.reactions.values()]
     return [leaf for p in parts for at, leaf, _ in numbers(p) if at.split(".")[0] in keys]

@@ -8,7 +8,7 @@ the registry, `added` the user's own costs, `weighted` Eq. 5.
 from pyrofit.cost.kinds import KINDS, known_costs
 from pyrofit.cost.normalisation import NORMALISATIONS
 from pyrofit.cost.target import FloatArray, Target
-from pyrofit.cost.term import Term, check_options, make_term
+from pyrofit.cost.term import Term, check_cost_options, make_term
 from pyrofit.cost.weighted import WeightedSum
 
 __all__ = [
@@ -18,7 +18,7 @@ __all__ = [
     "Target",
     "Term",
     "WeightedSum",
-    "check_options",
+    "check_cost_options",
     "known_costs",
     "make_term",
 ]

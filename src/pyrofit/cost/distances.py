@@ -7,7 +7,7 @@ distance of a model from them is `to_limit` (Table 2) or `to_target` (PROPTI's R
 import numpy as np
 from numpy.typing import ArrayLike
 
-from pyrofit.cost.target import FloatArray, Target, curve, number
+from pyrofit.cost.target import FloatArray, Target, checked_curve, number
 from pyrofit.errors import CostError
 
 Limits = tuple[FloatArray, FloatArray]
@@ -126,7 +126,7 @@ def _bands_as_given(target: Target, lower: object, upper: object, n_sigma: float
         return target.value - half * target.uncertainty, target.value + half * target.uncertainty
     if lower is None or upper is None or n_sigma is not None:
         raise CostError("BANDS: give both `lower` and `upper`, or `n_sigma` alone.")
-    limits = curve("lower", lower), curve("upper", upper)
+    limits = checked_curve("lower", lower), checked_curve("upper", upper)
     for name, limit in zip(("lower", "upper"), limits, strict=True):
         if limit.size != target.time_s.size:
             raise CostError(

@@ -51,7 +51,7 @@ class Target:
     def __post_init__(self) -> None:
         for name in ("time_s", "value", "uncertainty"):
             if (given := getattr(self, name)) is not None:
-                object.__setattr__(self, name, curve(name, given))
+                object.__setattr__(self, name, checked_curve(name, given))
         if self.time_s.size < _FEWEST_POINTS:
             raise CostError(
                 f"target: given {self.time_s.size} points; a target needs at least "
@@ -145,10 +145,10 @@ class Target:
         return Target(time_s, value, np.interp(time_s, self.time_s, self.uncertainty))
 
 
-def curve(name: str, given: object) -> FloatArray:
+def checked_curve(name: str, given: object) -> FloatArray:
     """Give a read-only copy of a one-dimensional, finite array, or raise an error.
 
-    >>> curve("value", [1, 2]).tolist()
+    >>> checked_curve("value", [1, 2]).tolist()
     [1.0, 2.0]
     """
     try:

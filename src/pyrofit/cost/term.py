@@ -109,11 +109,11 @@ def make_term(kind: str, target: Target, **options: Any) -> Term:
     >>> term(np.array([3.0, 1.0, 3.0, 1.0]))
     0.5
     """
-    check_options(kind, options)
+    check_cost_options(kind, options)
     return Term(kind, target, dict(options), known_costs()[kind](target, **options))
 
 
-def check_options(kind: str, options: Mapping[str, Any]) -> None:
+def check_cost_options(kind: str, options: Mapping[str, Any]) -> None:
     """Check the names of a cost and its options, which needs no target.
 
     Raises

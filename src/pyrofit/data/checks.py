@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from pyrofit.data.csvfile import FloatArray, Table
+from pyrofit.data.csvfile import FileTable, FloatArray
 from pyrofit.errors import DataError
 from pyrofit.quantities.base import Quantity
 from pyrofit.quantities.units import SCALES, unit_key
@@ -33,7 +33,7 @@ def check_finite(path: Path, frame: pd.DataFrame) -> None:
 
 
 def check_order(
-    quantity: Quantity, table: Table, headers: Mapping[str, str], frame: pd.DataFrame
+    quantity: Quantity, table: FileTable, headers: Mapping[str, str], frame: pd.DataFrame
 ) -> None:
     """Refuse unordered times, negative uncertainties, crossed limits, a loss of the wrong sign."""
     time = frame["time_s"].to_numpy()
@@ -82,7 +82,7 @@ def _way_out(time: FloatArray, row: int) -> str:
 
 
 def check_limits(
-    quantity: Quantity, table: Table, headers: Mapping[str, str], frame: pd.DataFrame
+    quantity: Quantity, table: FileTable, headers: Mapping[str, str], frame: pd.DataFrame
 ) -> None:
     """Refuse temperatures, rates and mass fractions that only a wrong unit explains."""
     checked = [("value", quantity.column, quantity.largest, quantity.all_within)]
@@ -113,7 +113,11 @@ def is_change(mass: FloatArray) -> bool:
 
 
 def check_zero(
-    quantity: Quantity, table: Table, headers: Mapping[str, str], unit: str | None, sign: int = 1
+    quantity: Quantity,
+    table: FileTable,
+    headers: Mapping[str, str],
+    unit: str | None,
+    sign: int = 1,
 ) -> None:
     """Refuse the change of a mass, and a mass far below zero; noise about zero is allowed.
 
@@ -155,7 +159,7 @@ def check_zero(
     raise _refusal(table, headers["value"], row, rule)
 
 
-def _refusal(table: Table, header: str, row: int, rule: str) -> DataError:
+def _refusal(table: FileTable, header: str, row: int, rule: str) -> DataError:
     return DataError(
         f"{table.path}, line {table.line(row)}, column '{header}': "
         f"given {table.columns[header][row]:g}; {rule}"

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from pyrofit.data.csvheading import is_number, trim
-from pyrofit.data.line import Line
+from pyrofit.data.line import FileLine
 from pyrofit.data.numerals import ABSENT, Numerals, is_numeral, numerals_of
 from pyrofit.data.oxygen import FloatArray, heat_release_rate
 from pyrofit.errors import DataError
@@ -34,8 +34,8 @@ def is_export(lines: Sequence[Sequence[str]]) -> bool:
 
 
 def unfolded(
-    path: Path, lines: Sequence[Line], notes: list[str]
-) -> tuple[list[Line], float | None]:
+    path: Path, lines: Sequence[FileLine], notes: list[str]
+) -> tuple[list[FileLine], float | None]:
     """Return a cone calorimeter's export as a header and rows, and the exposed area [m2].
 
     The first two columns of FTT's files hold keys and values. The scans of Deatak have names in the
@@ -53,10 +53,12 @@ def unfolded(
     return _ftt(path, lines, notes)
 
 
-def _ftt(path: Path, lines: Sequence[Line], notes: list[str]) -> tuple[list[Line], float | None]:
+def _ftt(
+    path: Path, lines: Sequence[FileLine], notes: list[str]
+) -> tuple[list[FileLine], float | None]:
     known = {_key(line.cells[0]): line.cells[1] for line in lines if len(line.cells) > 1}
     names = trim(lines[0].cells[2:])
-    rows = [Line(line.number, line.cells[2 : 2 + len(names)]) for line in lines[1:]]
+    rows = [FileLine(line.number, line.cells[2 : 2 + len(names)]) for line in lines[1:]]
     rows = [row for row in rows if any(map(_counts, row.cells))]
     numerals = _numerals(path, rows)
     notes.append(f"FTT export with {len(known)} keys")
@@ -75,11 +77,13 @@ def _ftt(path: Path, lines: Sequence[Line], notes: list[str]) -> tuple[list[Line
         "C-factor (SI units)": _number(known.get(_C_FACTOR), numerals),
     }
     delay = _number(known.get("o2 delay time (s)"), numerals)
-    header = Line(lines[0].number, names)
+    header = FileLine(lines[0].number, names)
     return _with_heat_release([header, *rows], columns, facts, delay, start, numerals, notes), area
 
 
-def _deatak(path: Path, lines: Sequence[Line], notes: list[str]) -> tuple[list[Line], float | None]:
+def _deatak(
+    path: Path, lines: Sequence[FileLine], notes: list[str]
+) -> tuple[list[FileLine], float | None]:
     by_key = {line.cells[0].casefold(): line.cells[1:] for line in lines[:8]}
     names, units = by_key[_DEATAK], by_key.get("units", [])
     units = [*units, *[""] * (len(names) - len(units))]
@@ -87,7 +91,7 @@ def _deatak(path: Path, lines: Sequence[Line], notes: list[str]) -> tuple[list[L
     header = [
         f"{n} ({words.get(u, u)})" if u else n for n, u in zip(names, units, strict=False) if n
     ]
-    rows = [Line(row.number, row.cells[1:]) for row in lines if is_number(row.cells[0])]
+    rows = [FileLine(row.number, row.cells[1:]) for row in lines if is_number(row.cells[0])]
     numerals = _numerals(path, rows)
     notes.append("Deatak scan")
     places = {name.casefold(): i for i, name in enumerate(names)}
@@ -97,7 +101,7 @@ def _deatak(path: Path, lines: Sequence[Line], notes: list[str]) -> tuple[list[L
     numbers = {key: _number(cell, numerals) for key, cell in scalars.items()}
     facts = {key: numbers.get(key.casefold()) for key in ("SURF AREA", "C FACTOR")}
     delay, area = numbers.get("o2 delay time"), facts["SURF AREA"] or None
-    table = [Line(lines[0].number, header), *rows]
+    table = [FileLine(lines[0].number, header), *rows]
     return _with_heat_release(table, columns, facts, delay, None, numerals, notes), area
 
 
@@ -112,7 +116,7 @@ def _scalars(path: Path) -> dict[str, str]:
 
 
 def _columns(
-    rows: Sequence[Line],
+    rows: Sequence[FileLine],
     places: Mapping[str, int],
     names: Sequence[str],
     offsets: Sequence[float],
@@ -131,14 +135,14 @@ def _columns(
 
 
 def _with_heat_release(
-    lines: list[Line],
+    lines: list[FileLine],
     columns: list[FloatArray] | None,
     facts: Mapping[str, float | None],
     delay: float | None,
     start: float | None,
     numerals: Numerals,
     notes: list[str],
-) -> list[Line]:
+) -> list[FileLine]:
     """Add the heat release rate per area, where the file has none and tells all that it needs.
 
     Parameters
@@ -174,9 +178,9 @@ def _with_heat_release(
         f"delay {delay or 0.0:g} s, {area:g} m2"
     )
     width = len(lines[0].cells)
-    header = Line(lines[0].number, [*lines[0].cells, "HRR (kW/m2)"])
+    header = FileLine(lines[0].number, [*lines[0].cells, "HRR (kW/m2)"])
     rows = [
-        Line(
+        FileLine(
             row.number,
             [*_filled(row.cells, width), f"{x / area / 1e3:.6g}".replace(".", numerals.decimal)],
         )
@@ -189,7 +193,7 @@ def _filled(cells: Sequence[str], width: int) -> list[str]:
     return [*cells[:width], *[""] * (width - len(cells))]
 
 
-def _numerals(path: Path, rows: Sequence[Line]) -> Numerals:
+def _numerals(path: Path, rows: Sequence[FileLine]) -> Numerals:
     """Return how the rows write numbers."""
     if not rows:
         raise DataError(
@@ -214,4 +218,4 @@ def _number(cell: str | None, numerals: Numerals) -> float | None:
     if cell is None:
         return None
     number = numerals.number(cell)
-    return numerals_of([Line(0, [cell])]).number(cell) if number is None else number
+    return numerals_of([FileLine(0, [cell])]).number(cell) if number is None else number

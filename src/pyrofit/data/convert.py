@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.data.checks import WHOLE, is_change
-from pyrofit.data.csvfile import FloatArray, Table
+from pyrofit.data.csvfile import FileTable, FloatArray
 from pyrofit.data.spec import SeriesSpec
 from pyrofit.errors import DataError, suggest
 from pyrofit.quantities.base import LIMITS, Quantity
@@ -26,7 +26,7 @@ OTHER_ZERO = 0.2
 
 
 def convert_columns(
-    spec: SeriesSpec, table: Table, headers: Mapping[str, str]
+    spec: SeriesSpec, table: FileTable, headers: Mapping[str, str]
 ) -> tuple[pd.DataFrame, list[str]]:
     """Return the columns of a series in SI units, and notes on the conversion.
 
@@ -75,7 +75,7 @@ def convert_columns(
 
 
 def _from_start(
-    spec: SeriesSpec, table: Table, kind: str, value: FloatArray
+    spec: SeriesSpec, table: FileTable, kind: str, value: FloatArray
 ) -> tuple[FloatArray, list[str]]:
     """Return masses of a tared balance, whose zero is arbitrary, from the stated initial mass on.
 
@@ -124,7 +124,7 @@ def _has_other_zero(mass: FloatArray, initial: float) -> bool:
     return other and first - lowest < (1.0 + OTHER_ZERO) * initial
 
 
-def _overridden(spec: SeriesSpec, table: Table, headers: Mapping[str, str]) -> list[str]:
+def _overridden(spec: SeriesSpec, table: FileTable, headers: Mapping[str, str]) -> list[str]:
     """Note units of the study that convert a column otherwise than the file's own would."""
     notes = []
     for role, unit in spec.units.items():
@@ -146,7 +146,7 @@ def _meaning(unit: str, kinds: Sequence[str]) -> tuple[str, float, float] | None
 
 
 def to_si(
-    spec: SeriesSpec, table: Table, headers: Mapping[str, str], role: str, kinds: Sequence[str]
+    spec: SeriesSpec, table: FileTable, headers: Mapping[str, str], role: str, kinds: Sequence[str]
 ) -> tuple[FloatArray, str]:
     """Convert one column to SI units; give also which of the kinds of quantity its unit is."""
     header = headers[role]

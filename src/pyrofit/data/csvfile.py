@@ -12,8 +12,15 @@ from pyrofit.data.bulk import bulk_values
 from pyrofit.data.cone_exports import is_export, unfolded
 from pyrofit.data.csvheading import Heading, named_columns
 from pyrofit.data.layout import cells_of, layout_of, usual_delimiter
-from pyrofit.data.line import Line
-from pyrofit.data.numerals import Numerals, fault_of, is_numeral, numerals_of, of_parts, seconds
+from pyrofit.data.line import FileLine
+from pyrofit.data.numerals import (
+    Numerals,
+    fault_of,
+    is_numeral,
+    numerals_of,
+    of_parts,
+    seconds_of_text,
+)
 from pyrofit.data.rows import parsed, rows_of, whole_rows, without_footer
 from pyrofit.data.sections import first_table
 from pyrofit.data.stated import Stated, exothermic_up, stated_in
@@ -30,7 +37,7 @@ _PARTS_OF_TIME = ("mm:ss", "min:s", "hh:mm")
 
 
 @dataclass(frozen=True, eq=False)
-class Table:
+class FileTable:
     """Columns of numbers, in the file's own units.
 
     Parameters
@@ -92,7 +99,7 @@ class Table:
                 )
 
 
-def read_table(path: Path) -> Table:
+def read_table(path: Path) -> FileTable:
     r"""Read a delimited text file: header, units row or units in the header, and numbers.
 
     The encoding is UTF-8, UTF-16 or Windows-1252. Comma, semicolon, tab, bar or blanks separate
@@ -139,14 +146,16 @@ def read_table(path: Path) -> Table:
     return replace(table, stated=stated, area_m2=area)
 
 
-def _read(path: Path, notes: list[str]) -> tuple[Table, list[str]]:
+def _read(path: Path, notes: list[str]) -> tuple[FileTable, list[str]]:
     """Return the table of a file, and the lines above it."""
     raw = re.split(r"\r\n|\n|\r", read_text(path, notes))
     while raw and not raw[-1].strip(' \t;,|"'):
         raw.pop()
     delimiter = usual_delimiter(path, raw)
     if is_export([cells_of(path, text, delimiter) for text in raw[:_LOOKED_AT]]):
-        lines = [Line(i, cells_of(path, text, delimiter)) for i, text in enumerate(raw, start=1)]
+        lines = [
+            FileLine(i, cells_of(path, text, delimiter)) for i, text in enumerate(raw, start=1)
+        ]
         (first, *rows), area = unfolded(path, [line for line in lines if any(line.cells)], notes)
         table = _table(path, named_columns(path, [first], notes), rows, notes)
         return replace(table, area_m2=area), raw[: first.number]
@@ -166,20 +175,20 @@ def _read(path: Path, notes: list[str]) -> tuple[Table, list[str]]:
     return _table(path, heading, whole, notes, layout.marks), above
 
 
-def holds_unclear_numbers(table: Table, name: str) -> bool:
+def holds_unclear_numbers(table: FileTable, name: str) -> bool:
     """Tell whether the first cell of a column that is no number looks like one, such as 4,999."""
     return name in table.faults and is_numeral(table.faults[name][1])
 
 
 def _table(
-    path: Path, heading: Heading, lines: list[Line], notes: list[str], marks: bool = False
-) -> Table:
+    path: Path, heading: Heading, lines: list[FileLine], notes: list[str], marks: bool = False
+) -> FileTable:
     """Return the table of lines of cells."""
     rows = _whole_times(whole_rows(path, lines, heading, marks, notes), heading)
     numerals = numerals_of(rows)
     notes += _notes_on(numerals)
     values, texts = parsed(rows, len(heading.names), numerals, notes)
-    clocks = [seconds(cell) is not None for cell in rows[0].cells]
+    clocks = [seconds_of_text(cell) is not None for cell in rows[0].cells]
     units = [
         _of_clock(unit) if clock else unit
         for unit, clock in zip(heading.units, clocks, strict=False)
@@ -191,14 +200,16 @@ def _table(
     return _as_table(path, heading, values, texts, first, left_out, notes)
 
 
-def _whole_times(rows: list[Line], heading: Heading) -> list[Line]:
+def _whole_times(rows: list[FileLine], heading: Heading) -> list[FileLine]:
     """Return rows whose times mm:ss and hh:mm, as the heading tells them, are hh:mm:ss."""
     of = {i: (u or "").casefold() for i, u in enumerate(heading.units)}
     of = {i: unit for i, unit in of.items() if unit in _PARTS_OF_TIME}
     if not of:
         return rows
     return [
-        Line(row.number, [of_parts(c, of[i]) if i in of else c for i, c in enumerate(row.cells)])
+        FileLine(
+            row.number, [of_parts(c, of[i]) if i in of else c for i, c in enumerate(row.cells)]
+        )
         for row in rows
     ]
 
@@ -219,7 +230,7 @@ def _as_table(
     first_row: int,
     left_out: tuple[int, ...],
     notes: Sequence[str],
-) -> Table:
+) -> FileTable:
     """Return the table of an array, without columns that have neither name nor numbers."""
     used = [
         i
@@ -227,7 +238,7 @@ def _as_table(
         if heading.named[i] or i in texts or not np.isnan(values[:, i]).all()
     ]
     names = {i: heading.names[i] for i in used}
-    return Table(
+    return FileTable(
         path,
         {name: values[:, i].copy() for i, name in names.items()},
         {name: _unit(heading.units[i]) for i, name in names.items()},

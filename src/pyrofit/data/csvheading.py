@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from pyrofit.data.line import Line
+from pyrofit.data.line import FileLine
 from pyrofit.data.numerals import as_float
 from pyrofit.errors import DataError
 from pyrofit.quantities.units import SCALES, unit_key
@@ -25,7 +25,7 @@ class Heading:
     named: list[bool]
 
 
-def named_columns(path: Path, heading: Sequence[Line], notes: list[str]) -> Heading:
+def named_columns(path: Path, heading: Sequence[FileLine], notes: list[str]) -> Heading:
     """Tell names and units apart, whichever row comes first."""
     rows = list(heading)
     if len(rows) == 2 and units_come_first(rows[0], rows[1]):
@@ -55,15 +55,15 @@ def trim(cells: Sequence[str], width: int = 0) -> list[str]:
     return list(cells[:end])
 
 
-def all_bracketed(line: Line) -> bool:
+def all_bracketed(line: FileLine) -> bool:
     """Tell whether a line holds nothing but units in brackets."""
     return all(_BRACKETED.fullmatch(cell) for cell in line.cells if cell)
 
 
-def units_come_first(first: Line, second: Line) -> bool:
+def units_come_first(first: FileLine, second: FileLine) -> bool:
     """Tell whether units stand above names: in brackets, or as in tables of FDS.
 
-    >>> units_come_first(Line(1, ["s", "C", "1/s"]), Line(2, ["Time", "Temp", "MLR"]))
+    >>> units_come_first(FileLine(1, ["s", "C", "1/s"]), FileLine(2, ["Time", "Temp", "MLR"]))
     True
     """
     if all_bracketed(first):
@@ -72,14 +72,14 @@ def units_come_first(first: Line, second: Line) -> bool:
     return unit_key(first.cells[0]) in times and holds_units(first) and not holds_units(second)
 
 
-def holds_units(line: Line) -> bool:
+def holds_units(line: FileLine) -> bool:
     """Tell whether at least half of a line's cells are units, and no names."""
     filled = [cell for cell in line.cells if cell]
     units = [c for c in filled if _BRACKETED.fullmatch(c) or unit_key(c) in _KNOWN]
     return bool(filled) and 2 * len(units) >= len(filled)
 
 
-def holds_names_with_units(line: Line) -> bool:
+def holds_names_with_units(line: FileLine) -> bool:
     """Tell whether at least half of a line's cells are names with their units."""
     filled = [cell for cell in line.cells if cell]
     both = [unit for cell, unit in zip(filled, _split_units(filled)[1], strict=True) if unit]

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pyrofit.data.csvfile import Table
+from pyrofit.data.csvfile import FileTable
 from pyrofit.errors import DataError
 
 _ABSCISSAE = ("time", "temperature")
@@ -16,7 +16,7 @@ _FEW = 0.1
 """Share of rows of the time of the row before that are left out; more are refused."""
 
 
-def without_gaps(table: Table, headers: Mapping[str, str]) -> tuple[Table, list[str]]:
+def without_gaps(table: FileTable, headers: Mapping[str, str]) -> tuple[FileTable, list[str]]:
     """Leave out the rows in which the value or its uncertainty has an empty cell.
 
     A file may hold quantities that were recorded at different intervals. Empty cells of columns
@@ -58,7 +58,7 @@ def without_gaps(table: Table, headers: Mapping[str, str]) -> tuple[Table, list[
     return left, [f"left out, without a value: {gaps.sum()} of {gaps.size} rows"]
 
 
-def without_doubles(table: Table, header: str) -> tuple[Table, list[str]]:
+def without_doubles(table: FileTable, header: str) -> tuple[FileTable, list[str]]:
     """Leave out the second of two rows of one time, where few rows are so; note them."""
     time = table.columns[header]
     double = np.r_[False, np.diff(time) == 0.0]
@@ -69,7 +69,7 @@ def without_doubles(table: Table, header: str) -> tuple[Table, list[str]]:
     return left, [f"left out, the time of the row before: {double.sum()} rows, first line {first}"]
 
 
-def without_times_before(table: Table, header: str) -> tuple[Table, list[str]]:
+def without_times_before(table: FileTable, header: str) -> tuple[FileTable, list[str]]:
     """Leave out the few rows before time 0 at the start of a record; note them."""
     time = table.columns[header]
     before = np.logical_and.accumulate(time < 0.0)
@@ -78,7 +78,7 @@ def without_times_before(table: Table, header: str) -> tuple[Table, list[str]]:
     return _without(table, before), [f"left out, before time 0: {before.sum()} rows"]
 
 
-def _without(table: Table, out: NDArray[np.bool_]) -> Table:
+def _without(table: FileTable, out: NDArray[np.bool_]) -> FileTable:
     """Return a table without some of its rows."""
     every = np.arange(out.size + len(table.left_out))
     kept = np.delete(every, table.left_out)[~out]
@@ -89,7 +89,7 @@ def _without(table: Table, out: NDArray[np.bool_]) -> Table:
     )
 
 
-def without_stops(table: Table, header: str) -> tuple[Table, list[str]]:
+def without_stops(table: FileTable, header: str) -> tuple[FileTable, list[str]]:
     """Leave out the rows whose temperature is not above all before: a record without times.
 
     Returns

@@ -23,7 +23,7 @@ _BURNT, _LOST, _FASTER, _STARTED = 0.02, 0.005, 3.0, 0.003
 before; loss at which it starts. Masses are fractions of the initial mass."""
 
 
-class End(NamedTuple):
+class EndOfHeating(NamedTuple):
     """The end of the heating: its time [s], and the reason in words."""
 
     time_s: float
@@ -32,7 +32,7 @@ class End(NamedTuple):
 
 def end_of_heating(
     frame: pd.DataFrame, quantity: Quantity, stated: Stated | None = None
-) -> End | None:
+) -> EndOfHeating | None:
     """Return the earliest end of the heating of a sample; None where the whole record is one.
 
     Parameters
@@ -51,19 +51,19 @@ def end_of_heating(
     >>> T = 300.0 + np.minimum(10.0 * t, 600.0 - 5.0 * np.maximum(t - 80.0, 0.0))
     >>> frame = pd.DataFrame({"time_s": t, "temperature_K": T, "heat_flow_W_kg": 0.0 * t})
     >>> end_of_heating(frame, known_quantities()["heat_flow"])
-    End(time_s=81.0, why='from then on the record cools, which is no heating')
+    EndOfHeating(time_s=81.0, why='from then on the record cools, which is no heating')
     """
     time, T = (frame[c].to_numpy(float) for c in ("time_s", "temperature_K"))
     ends = []
     if (cools := cooling_from_s(time, T)) is not None:
-        ends.append(End(cools, "from then on the record cools, which is no heating"))
+        ends.append(EndOfHeating(cools, "from then on the record cools, which is no heating"))
     if stated is not None and stated.then_gas and stated.then_gas_s is not None:
-        ends.append(End(stated.then_gas_s, f"from then on the gas is {stated.then_gas}"))
+        ends.append(EndOfHeating(stated.then_gas_s, f"from then on the gas is {stated.then_gas}"))
     mass = frame[quantity.column].to_numpy(float)
     is_mass = quantity.scales[0] == "fraction" and "mass" in quantity.scales
     if is_mass and (burns := burning_from_s(time, T, mass)) is not None:
         why = "from then on the mass falls anew at a held temperature, as after a change of gas"
-        ends.append(End(burns, why))
+        ends.append(EndOfHeating(burns, why))
     ends = [end for end in ends if time[0] < end.time_s < time[-1]]
     return min(ends, default=None)
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from pyrofit.data.csvheading import all_bracketed, holds_names_with_units, is_number, trim
 from pyrofit.data.heading_rows import heading_above, signals_in
-from pyrofit.data.line import BLANKS, Line
+from pyrofit.data.line import BLANKS, FileLine
 from pyrofit.data.numerals import is_numeral
 from pyrofit.errors import DataError
 
@@ -38,7 +38,7 @@ class Layout:
     """
 
     delimiter: str
-    heading: tuple[Line, ...]
+    heading: tuple[FileLine, ...]
     start: int
     marks: bool = False
     export: bool = False
@@ -88,7 +88,9 @@ def layout_of(path: Path, raw: Sequence[str], notes: list[str]) -> Layout:
         There is no header, or there are no numbers.
     """
     delimiter = usual_delimiter(path, raw)
-    lines = [Line(i, cells_of(path, t, delimiter)) for i, t in enumerate(raw[:_SEARCHED], start=1)]
+    lines = [
+        FileLine(i, cells_of(path, t, delimiter)) for i, t in enumerate(raw[:_SEARCHED], start=1)
+    ]
     filled = [line for line in lines if any(line.cells)]
     count = next((i for i, line in enumerate(filled) if any(map(is_number, line.cells))), -1)
     if _is_plain(filled, count) and _goes_on(filled[count : count + 2 * _RUN]):
@@ -100,7 +102,7 @@ def layout_of(path: Path, raw: Sequence[str], notes: list[str]) -> Layout:
     return Layout(delimiter, tuple(filled[:count]), filled[count].number - 1)
 
 
-def _is_plain(filled: Sequence[Line], count: int) -> bool:
+def _is_plain(filled: Sequence[FileLine], count: int) -> bool:
     """Tell whether one or two rows of text stand above rows of numbers that are as wide."""
     if count not in (1, 2):
         return False
@@ -110,14 +112,14 @@ def _is_plain(filled: Sequence[Line], count: int) -> bool:
     return wide and not (count == 2 and holds_names_with_units(filled[1]) and names is filled[0])
 
 
-def _goes_on(rows: Sequence[Line]) -> bool:
+def _goes_on(rows: Sequence[FileLine]) -> bool:
     """Tell whether most of some lines are rows of numbers, and not keys with values."""
     if not is_numeral(next((cell for cell in rows[0].cells if cell), "")):
         return False
     return 2 * sum(_is_row(row.cells) for row in rows) > len(rows)
 
 
-def _refuse(path: Path, lines: Sequence[Line], count: int) -> None:
+def _refuse(path: Path, lines: Sequence[FileLine], count: int) -> None:
     """Refuse all but tables."""
     if count == 0:
         raise DataError(
@@ -139,10 +141,11 @@ def _refuse(path: Path, lines: Sequence[Line], count: int) -> None:
 
 def _located(path: Path, raw: Sequence[str], notes: list[str]) -> Layout | None:
     """Return the table that begins with the first run of rows of numbers; None without one."""
-    best: tuple[int, str, int, list[Line]] = 0, "", 0, []
+    best: tuple[int, str, int, list[FileLine]] = 0, "", 0, []
     for delimiter in _ALL_DELIMITERS:
         lines = [
-            Line(i, cells_of(path, text, delimiter)) for i, text in enumerate(raw[:_SEARCHED], 1)
+            FileLine(i, cells_of(path, text, delimiter))
+            for i, text in enumerate(raw[:_SEARCHED], 1)
         ]
         length, first = _first_run(lines)
         if length > best[0]:
@@ -167,7 +170,7 @@ def _located(path: Path, raw: Sequence[str], notes: list[str]) -> Layout | None:
     return Layout(delimiter, heading, first, bool(signals), export=True)
 
 
-def _of_count(lines: Sequence[Line], raw: Sequence[str], first: int) -> tuple[Line, ...]:
+def _of_count(lines: Sequence[FileLine], raw: Sequence[str], first: int) -> tuple[FileLine, ...]:
     """Return times and numbered columns where a count of the rows stands alone above them."""
     above = [line for line in lines[:first] if any(line.cells)]
     rows = sum(bool(text.strip()) for text in raw[first:])
@@ -175,10 +178,10 @@ def _of_count(lines: Sequence[Line], raw: Sequence[str], first: int) -> tuple[Li
         return ()
     width = len(lines[first].cells)
     names = ["Time (s)", *(f"column {i}" for i in range(2, width + 1))]
-    return (Line(above[0].number, names),)
+    return (FileLine(above[0].number, names),)
 
 
-def _first_run(lines: Sequence[Line]) -> tuple[int, int]:
+def _first_run(lines: Sequence[FileLine]) -> tuple[int, int]:
     """Return length of the longest run of rows of one width, and where the first such run begins.
 
     A run has five rows; three where the file has no longer ones.
@@ -194,10 +197,10 @@ def _first_run(lines: Sequence[Line]) -> tuple[int, int]:
     return longest[0], start
 
 
-def _runs(lines: Sequence[Line]) -> Iterator[tuple[int, int, int]]:
+def _runs(lines: Sequence[FileLine]) -> Iterator[tuple[int, int, int]]:
     """Yield length, first line and width of each run of rows of numbers of one width."""
     start, width = 0, 0
-    for i, line in enumerate([*lines, Line(0, [])]):
+    for i, line in enumerate([*lines, FileLine(0, [])]):
         wide = len(line.cells) if _is_row(line.cells) else 0
         if wide != width:
             if width:

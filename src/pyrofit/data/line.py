@@ -7,7 +7,7 @@ BLANKS = " "
 
 
 @dataclass(frozen=True)
-class Line:
+class FileLine:
     """A line of the file, from 1, and its cells."""
 
     number: int

@@ -79,7 +79,7 @@ def lowest_density(lags: Sequence[float]) -> float:
     return float(np.min(density(np.concatenate([[-1.0, 1.0], inside]))))
 
 
-def draw(autocorrelation: FloatArray, rng: np.random.Generator) -> FloatArray:
+def draw_noise(autocorrelation: FloatArray, rng: np.random.Generator) -> FloatArray:
     """Draw normal noise of unit variance with exactly the given autocorrelation.
 
     Each value is its prediction from the values before it, plus white noise of the prediction's
@@ -102,7 +102,7 @@ def draw(autocorrelation: FloatArray, rng: np.random.Generator) -> FloatArray:
     Examples
     --------
     >>> white = np.random.default_rng(1).standard_normal(3)
-    >>> noise = draw(autoregressive(0.6, 3), np.random.default_rng(1))
+    >>> noise = draw_noise(autoregressive(0.6, 3), np.random.default_rng(1))
     >>> [round(float(noise[i] - 0.6 * noise[i - 1] - 0.8 * white[i]), 12) for i in (1, 2)]
     [0.0, 0.0]
     """

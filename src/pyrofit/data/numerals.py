@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from datetime import date
 
-from pyrofit.data.line import Line
+from pyrofit.data.line import FileLine
 
 ABSENT = frozenset({"nan", "#n/a", "n/a", "na", "#value!", "#div/0!", "null", "-", "--", "none"})
 """Words, in lower case, for a cell without a value."""
@@ -62,15 +62,16 @@ def as_float(cell: str) -> float | None:
     return None if "_" in cell or math.isnan(value) else value
 
 
-def seconds(cell: str) -> float | None:
+def seconds_of_text(cell: str) -> float | None:
     """Return the seconds of a time hh:mm:ss; None where a cell is none.
 
     AM or PM may stand behind it, and before it a date whose day is clear.
 
-    >>> seconds("1:02:03.5"), seconds("12:30"), seconds("12:00:01 AM"), seconds("1:00:00 pm")
-    (3723.5, None, 1.0, 46800.0)
-    >>> seconds("2024-05-17 00:00:10") - seconds("16.05.2024 23:59:50"), seconds("1/2/2024 1:00:00")
-    (20.0, None)
+    >>> [seconds_of_text(t) for t in ("1:02:03.5", "12:30", "12:00:01 AM", "1:00:00 pm")]
+    [3723.5, None, 1.0, 46800.0]
+    >>> seconds_of_text("2024-05-17 00:00:10") - seconds_of_text("16.05.2024 23:59:50")
+    20.0
+    >>> seconds_of_text("1/2/2024 1:00:00")
     """
     match = _CLOCK.fullmatch(cell)
     if match is None:
@@ -119,16 +120,16 @@ def is_numeral(cell: str) -> bool:
     )
 
 
-def numerals_of(rows: Iterable[Line]) -> Numerals:
+def numerals_of(rows: Iterable[FileLine]) -> Numerals:
     """Tell the decimal sign and the separator of thousands from all rows of a table.
 
     Numbers with commas that can be read in two ways, or that contradict others, are none: with
     decimal points they hold no number.
 
-    >>> [numerals_of([Line(1, [c])]).decimal for c in ("4.5", "4,5", "4,999")], numerals_of(
-    ...     [Line(1, ["4,999", "1,234.5"])]
-    ... ).thousands
-    (['.', ',', '.'], ',')
+    >>> [numerals_of([FileLine(1, [c])]).decimal for c in ("4.5", "4,5", "4,999")]
+    ['.', ',', '.']
+    >>> numerals_of([FileLine(1, ["4,999", "1,234.5"])]).thousands
+    ','
     """
     commas: list[str] = []
     points: list[str] = []

@@ -8,8 +8,8 @@ import numpy.typing as npt
 
 from pyrofit.data.csvheading import Heading, holds_units, ragged, trim
 from pyrofit.data.layout import Layout, cells_of
-from pyrofit.data.line import Line
-from pyrofit.data.numerals import ABSENT, Numerals, is_dated, is_numeral, seconds
+from pyrofit.data.line import FileLine
+from pyrofit.data.numerals import ABSENT, Numerals, is_dated, is_numeral, seconds_of_text
 from pyrofit.errors import DataError
 
 FloatArray = npt.NDArray[np.float64]
@@ -19,10 +19,10 @@ _MOST_TEXTS = 20
 """Texts of a column that are kept."""
 
 
-def rows_of(path: Path, raw: Sequence[str], layout: Layout) -> list[Line]:
+def rows_of(path: Path, raw: Sequence[str], layout: Layout) -> list[FileLine]:
     """Return the lines of numbers of a file, as cells."""
     return [
-        Line(i, cells_of(path, text, layout.delimiter))
+        FileLine(i, cells_of(path, text, layout.delimiter))
         for i, text in enumerate(raw[layout.start :], start=layout.start + 1)
     ]
 
@@ -57,8 +57,8 @@ def _is_of_numbers(path: Path, text: str, layout: Layout, width: int) -> bool:
 
 
 def whole_rows(
-    path: Path, rows: Sequence[Line], heading: Heading, marks: bool, notes: list[str]
-) -> list[Line]:
+    path: Path, rows: Sequence[FileLine], heading: Heading, marks: bool, notes: list[str]
+) -> list[FileLine]:
     """Return the rows, each as wide as the header.
 
     Rows that repeat the header are left out, with text right above them and units below. Where
@@ -70,8 +70,8 @@ def whole_rows(
         A row is blank, or longer or shorter than the header.
     """
     width = len(heading.names)
-    whole: list[Line] = []
-    text: list[Line] = []  # rows without a number, which a header may follow
+    whole: list[FileLine] = []
+    text: list[FileLine] = []  # rows without a number, which a header may follow
     headers = events = 0
     for row in rows:
         cells = trim(row.cells, width)
@@ -81,7 +81,7 @@ def whole_rows(
         elif not any(is_numeral(cell) for cell in cells if cell):
             # Right below a header that stands again are its units.
             if not (headers and not text and _are_units(cells)):
-                text.append(Line(row.number, cells))
+                text.append(FileLine(row.number, cells))
         elif text:
             break
         elif len(cells) != width:
@@ -89,7 +89,7 @@ def whole_rows(
         elif marks and cells[0].startswith("-"):
             events += 1
         else:
-            whole.append(Line(row.number, cells))
+            whole.append(FileLine(row.number, cells))
     if text:
         raise _interrupted(path, text[0], width)
     if not whole:
@@ -99,7 +99,7 @@ def whole_rows(
     return whole
 
 
-def _interrupted(path: Path, row: Line, width: int) -> DataError:
+def _interrupted(path: Path, row: FileLine, width: int) -> DataError:
     """Return the error of a row without numbers among the others."""
     if len(row.cells) != width and any(row.cells):
         return ragged(path, row.number, len(row.cells), width)
@@ -120,11 +120,11 @@ def repeats(cells: Sequence[str], heading: Heading) -> bool:
 
 
 def _are_units(cells: list[str]) -> bool:
-    return holds_units(Line(0, cells))
+    return holds_units(FileLine(0, cells))
 
 
 def parsed(
-    rows: Sequence[Line], width: int, numerals: Numerals, notes: list[str]
+    rows: Sequence[FileLine], width: int, numerals: Numerals, notes: list[str]
 ) -> tuple[FloatArray, dict[int, dict[str, int]]]:
     """Return the numbers, and the texts of each column that holds some, with their first lines.
 
@@ -134,8 +134,8 @@ def parsed(
     texts: dict[int, dict[str, int]] = {}
     absent: list[str] = []
     for i in range(width):
-        clock = seconds(rows[0].cells[i]) is not None
-        read = seconds if clock else numerals.number
+        clock = seconds_of_text(rows[0].cells[i]) is not None
+        read = seconds_of_text if clock else numerals.number
         for j, row in enumerate(rows):
             cell = row.cells[i]
             number = read(cell) if cell else None
@@ -157,7 +157,7 @@ def parsed(
     return values, texts
 
 
-def _past_midnight(times: FloatArray, rows: Sequence[Line]) -> list[str]:
+def _past_midnight(times: FloatArray, rows: Sequence[FileLine]) -> list[str]:
     """Count times of day on past midnight, from the first row on; return a note on each."""
     passed = np.flatnonzero(np.diff(times) < -0.5 * _DAY_S) + 1
     if not passed.size:

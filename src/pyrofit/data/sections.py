@@ -4,8 +4,8 @@ import re
 from collections.abc import Collection, Sequence
 
 from pyrofit.data.csvheading import Heading, holds_units, trim
-from pyrofit.data.line import Line
-from pyrofit.data.numerals import Numerals, as_float, is_numeral, seconds
+from pyrofit.data.line import FileLine
+from pyrofit.data.numerals import Numerals, as_float, is_numeral, seconds_of_text
 from pyrofit.data.rows import repeats
 
 _STEP = re.compile(r"\d+\)\s.*[A-Za-z].*")
@@ -14,7 +14,7 @@ _BRACKETS = "[]() "
 _TIME = re.compile(r"(time|t|zeit)\b.*", re.IGNORECASE)
 
 
-def first_table(rows: Sequence[Line], heading: Heading, notes: list[str]) -> list[Line]:
+def first_table(rows: Sequence[FileLine], heading: Heading, notes: list[str]) -> list[FileLine]:
     """Return the rows of the first table, without titles of steps and all that follows it.
 
     Rows below a header that stands again belong to it as well: steps of one run. They are another
@@ -37,7 +37,7 @@ def _is_title(cells: Sequence[str]) -> bool:
     return bool(_STEP.fullmatch(" ".join(filled))) and not all(map(is_numeral, filled))
 
 
-def _end(rows: Sequence[Line], heading: Heading, notes: list[str]) -> int:
+def _end(rows: Sequence[FileLine], heading: Heading, notes: list[str]) -> int:
     """Return the position behind the last row of the first table."""
     width = len(heading.names)
     i = 0
@@ -67,7 +67,7 @@ def _is_gap(cells: Sequence[str]) -> bool:
     return 2 * sum(map(is_numeral, filled)) < len(filled) or not filled
 
 
-def _goes_on(row: Line, heading: Heading, places: Collection[int]) -> bool:
+def _goes_on(row: FileLine, heading: Heading, places: Collection[int]) -> bool:
     """Tell whether a line is the header again, or a row of numbers in the columns of the table."""
     cells = trim(row.cells, len(heading.names))
     if len(cells) != len(heading.names):
@@ -78,7 +78,7 @@ def _goes_on(row: Line, heading: Heading, places: Collection[int]) -> bool:
     return is_row or repeats(cells, heading)
 
 
-def _of_another(rows: Sequence[Line], gap: int, header: int, heading: Heading) -> str:
+def _of_another(rows: Sequence[FileLine], gap: int, header: int, heading: Heading) -> str:
     """Say how the table below a header that stands again differs; nothing where it goes on.
 
     Parameters
@@ -110,7 +110,7 @@ def _of_another(rows: Sequence[Line], gap: int, header: int, heading: Heading) -
 
 def _value(cell: str) -> float | None:
     """Return the number of a cell, whichever its decimal sign; None where it holds none."""
-    number = seconds(cell)
+    number = seconds_of_text(cell)
     if number is None:
         number = as_float(cell)
     return Numerals(",").number(cell) if number is None else number

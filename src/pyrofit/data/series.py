@@ -9,7 +9,7 @@ import pandas as pd
 
 from pyrofit.data.checks import check_finite, check_limits, check_order, check_zero
 from pyrofit.data.convert import convert_columns
-from pyrofit.data.csvfile import Table, read_table
+from pyrofit.data.csvfile import FileTable, read_table
 from pyrofit.data.download import sha256
 from pyrofit.data.gaps import (
     without_doubles,
@@ -57,7 +57,7 @@ class Measurement:
     notes: tuple[str, ...]
 
 
-def read_series(spec: SeriesSpec, read: Callable[[Path], Table] = read_table) -> Measurement:
+def read_series(spec: SeriesSpec, read: Callable[[Path], FileTable] = read_table) -> Measurement:
     """Read a measured series, convert it to SI units and check it.
 
     A mass `m` becomes the mass fraction `m / m_0`, with `m_0` the given mass of the sample, else
@@ -140,7 +140,7 @@ def read_series(spec: SeriesSpec, read: Callable[[Path], Table] = read_table) ->
     return Measurement(spec.of, frame, spec.path, digest, spec.uncertainty_meaning, tuple(notes))
 
 
-def _absent(table: Table, names: Sequence[str]) -> list[str]:
+def _absent(table: FileTable, names: Sequence[str]) -> list[str]:
     """Say which of some columns are zero throughout, and which hold no values."""
     empty = [name for name in names if np.isnan(table.columns[name]).all()]
     zero = [name for name in names if name not in empty]
@@ -148,7 +148,7 @@ def _absent(table: Table, names: Sequence[str]) -> list[str]:
     return [f"{why}: {', '.join(those)}" for why, those in given.items() if those]
 
 
-def _check_length(table: Table) -> int:
+def _check_length(table: FileTable) -> int:
     """Return the number of points, if these are enough."""
     rows = len(next(iter(table.columns.values())))
     if rows < _FEWEST_POINTS:
@@ -178,7 +178,7 @@ def _thinned(frame: pd.DataFrame) -> tuple[pd.DataFrame, list[str]]:
     return thin, [f"thinned: {len(thin):,} of {rows:,} rows are used, evenly spread"]
 
 
-def _assign_columns(spec: SeriesSpec, table: Table, dummies: Sequence[str]) -> dict[str, str]:
+def _assign_columns(spec: SeriesSpec, table: FileTable, dummies: Sequence[str]) -> dict[str, str]:
     """Find the header of each role: asked for by name, or recognised."""
     asked = {role: _find_asked(table, role, name) for role, name in spec.columns.items()}
     free = [name for name in table.columns if name not in asked.values()]
@@ -213,7 +213,7 @@ def _assign_columns(spec: SeriesSpec, table: Table, dummies: Sequence[str]) -> d
     return headers | {role: asked[role] for role in LIMITS if role in asked}
 
 
-def _find_asked(table: Table, role: str, asked: str) -> str:
+def _find_asked(table: FileTable, role: str, asked: str) -> str:
     if asked in table.columns:
         return asked
     matches = [name for name in table.columns if header_key(name) == header_key(asked)]

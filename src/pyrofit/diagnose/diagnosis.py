@@ -23,7 +23,7 @@ from pyrofit.diagnose.result import record
 from pyrofit.diagnose.search.kinetics_first import kinetics_first
 from pyrofit.diagnose.search.progress import Whole
 from pyrofit.diagnose.search.step import SearchContext, in_order
-from pyrofit.diagnose.search.stepwise import Search, search
+from pyrofit.diagnose.search.stepwise import Search, search_effects
 from pyrofit.estimate.targets import Measurements
 from pyrofit.logs import Tell
 from pyrofit.results.diagnosis_schema import Diagnosis as Record
@@ -34,7 +34,7 @@ Based = Callable[[Study], tuple[Setup, np.random.Generator]]
 
 
 @dataclass(frozen=True, eq=False)
-class Diagnosis:
+class DiagnosisWork:
     """A search, the verdict on it, and both as tidy results.
 
     ``searched`` is the model that the search ended with, ``search`` ends with the one that the
@@ -57,7 +57,7 @@ def examine(
     advise: bool = True,
     draw: int | None = None,
     journal: Journal | None = None,
-) -> Diagnosis:
+) -> DiagnosisWork:
     """Find where a study's model and measurements disagree, and which effect the model lacks.
 
     Parameters
@@ -98,7 +98,7 @@ def examine(
             next_experiments(undecided_models(found, verdict), processes),
         )
     tell(content.verdict.words)
-    return Diagnosis(searched, found, end, verdict, content, record.curves(found, final))
+    return DiagnosisWork(searched, found, end, verdict, content, record.curve_records(found, final))
 
 
 def diagnose(study: Study, measurements: Measurements) -> Record:
@@ -156,7 +156,7 @@ def _based(
 
 
 def _search(study: Study, setup: Setup, context: SearchContext) -> Search:
-    return search(setup.base, setup.candidates, study.diagnosis.most_effects, context)
+    return search_effects(setup.base, setup.candidates, study.diagnosis.most_effects, context)
 
 
 def _probes(found: Search, verdict: Verdict, processes: int) -> list[Probe]:

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from pyrofit.errors import ProgramError
 from pyrofit.external.fds import NO_FDS, fds_environment, find_fds
-from pyrofit.external.template import bytes_of, fill, places, read_bytes, text_of
+from pyrofit.external.template import bytes_of, fill_template, places_of_names, read_bytes, text_of
 from pyrofit.model.expressions import names_of, value_of_expression
 from pyrofit.model.parameters import UNITS
 from pyrofit.model.program import Program
@@ -47,7 +47,9 @@ def file_digests(program: Program) -> dict[str, str]:
 
 def used_parameters(program: Program) -> set[str]:
     """Return the names of the parameters in the template and the expressions."""
-    direct = {name for name, _ in places(template_text(program))} - set(program.placeholders)
+    direct = {name for name, _ in places_of_names(template_text(program))} - set(
+        program.placeholders
+    )
     given = program.placeholders.values()
     return direct.union(*(names_of(e) for e in given if isinstance(e, str)))
 
@@ -102,7 +104,7 @@ def executable_of(program: Program) -> Path:
     return Path(found).absolute()
 
 
-def words_of(program: Program) -> list[str]:
+def words_of_command(program: Program) -> list[str]:
     """Return the words that start the program."""
     return [str(executable_of(program)), *program.command[1:]]
 
@@ -126,7 +128,7 @@ def _digest(path: Path, size: int, time_ns: int) -> str:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
-def filled(program: Program, values: Mapping[str, float]) -> Filled:
+def filled_input(program: Program, values: Mapping[str, float]) -> Filled:
     """Return the input of a run.
 
     Raises
@@ -134,7 +136,7 @@ def filled(program: Program, values: Mapping[str, float]) -> Filled:
     ValueError
         A placeholder has no finite value.
     """
-    content = bytes_of(fill(template_text(program), placeholder_values(program, values)))
+    content = bytes_of(fill_template(template_text(program), placeholder_values(program, values)))
     described = program.model_dump(
         mode="json",
         include={"command", "reads", "dialect", "succeeds", "fails", "environment", "cores"},

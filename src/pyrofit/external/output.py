@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from pyrofit.data.convert import convert_columns
-from pyrofit.data.csvfile import Table
+from pyrofit.data.csvfile import FileTable
 from pyrofit.data.spec import SeriesSpec
 from pyrofit.errors import suggest
 from pyrofit.model.program import Reading
@@ -22,7 +22,7 @@ FEWEST = 2
 """Smallest number of rows of a record."""
 
 
-class Record(NamedTuple):
+class WrittenCurve(NamedTuple):
     """A curve as a program has written it, SI units.
 
     Parameters
@@ -41,7 +41,7 @@ class OutputError(Exception):
     """The output of a run cannot be read: the run has failed."""
 
 
-def read_output(folder: Path, reading: Reading, quantity: Quantity) -> Record:
+def read_output(folder: Path, reading: Reading, quantity: Quantity) -> WrittenCurve:
     """Return the curve of a signal in the output of a run.
 
     Rows above the header and rows of units beside it are skipped. Commas, semicolons, tabs or
@@ -80,10 +80,10 @@ def read_output(folder: Path, reading: Reading, quantity: Quantity) -> Record:
     if reading.holds == "point":
         return record
     # A mean over an interval is the value in its middle.
-    return Record(0.5 * (record.at[1:] + record.at[:-1]), record.value[1:])
+    return WrittenCurve(0.5 * (record.at[1:] + record.at[:-1]), record.value[1:])
 
 
-def in_si(reading: Reading, quantity: Quantity, columns: Mapping[str, FloatArray]) -> Record:
+def in_si(reading: Reading, quantity: Quantity, columns: Mapping[str, FloatArray]) -> WrittenCurve:
     """Return the columns of a reading in SI units.
 
     Raises
@@ -101,14 +101,14 @@ def in_si(reading: Reading, quantity: Quantity, columns: Mapping[str, FloatArray
         sample_area_m2=reading.sample_area_m2,
     )
     given = {"time": np.arange(len(columns["value"]), dtype=np.float64), **columns}
-    table = Table(Path(reading.file), given, dict.fromkeys(given), 1)
+    table = FileTable(Path(reading.file), given, dict.fromkeys(given), 1)
     frame, _ = convert_columns(spec, table, {name: name for name in given})
     at = frame["time_s" if role == "time" else "temperature_K"].to_numpy(float)
     value = frame[quantity.column].to_numpy(float)
     if role == "temperature":
         rising = np.concatenate([[True], np.diff(np.maximum.accumulate(at)) > 0.0])
         at, value = at[rising], value[rising]
-    return Record(at, value)
+    return WrittenCurve(at, value)
 
 
 def _columns(reading: Reading, lines: Sequence[str]) -> dict[str, FloatArray]:

@@ -14,15 +14,15 @@ from pyrofit.external.fds import complaint, version_in
 from pyrofit.external.filled import (
     Filled,
     environment_of,
-    filled,
+    filled_input,
     other_files,
     placeholder_values,
-    words_of,
+    words_of_command,
 )
-from pyrofit.external.output import OutputError, Record, read_output
+from pyrofit.external.output import OutputError, WrittenCurve, read_output
 from pyrofit.external.process import Ended, Groups, last_lines, run_process
 from pyrofit.external.scratch import lay_out, scratch
-from pyrofit.external.store import Content, Known, Store
+from pyrofit.external.store import Content, Store, StoredRun
 from pyrofit.model.program import Program
 from pyrofit.quantities.base import Quantity
 
@@ -46,7 +46,7 @@ class Outcome(NamedTuple):
         Version that the program prints, if it does.
     """
 
-    records: Mapping[str, Record]
+    records: Mapping[str, WrittenCurve]
     why: str = ""
     seconds: float = 0.0
     version: str = ""
@@ -95,7 +95,7 @@ def outcomes(
     waiting: dict[str, _Task] = {}
     for number, values in enumerate(sets):
         try:
-            task = _Task(program, quantities, needed, values, filled(program, values))
+            task = _Task(program, quantities, needed, values, filled_input(program, values))
         except ValueError as error:
             keys.append(f"set {number}")
             found[keys[-1]] = Outcome({}, str(error))
@@ -155,7 +155,7 @@ def _run(store: Store, task: _Task, scratch_folder: Path, groups: Groups) -> Out
         shutil.rmtree(folder)
         ended = _ended(task, folder, groups)
     why = judged(program, ended)
-    records: dict[str, Record] = {}
+    records: dict[str, WrittenCurve] = {}
     if not why:
         try:
             records = _read(task, folder)
@@ -163,7 +163,7 @@ def _run(store: Store, task: _Task, scratch_folder: Path, groups: Groups) -> Out
         except (OutputError, DataError) as error:
             why = str(error)
     if not why:
-        made = Known(records, ended.seconds, version_in(ended.said))
+        made = StoredRun(records, ended.seconds, version_in(ended.said))
         store.keep(key, made)
         shutil.rmtree(folder, ignore_errors=True)
         # The record of a faster process counts, if the two differ.
@@ -178,15 +178,15 @@ def _ended(task: _Task, folder: Path, groups: Groups) -> Ended:
     program = task.program
     lay_out(folder, {program.input_name: task.filled.content, **other_files(program)})
     return run_process(
-        words_of(program), folder, environment_of(program), program.time_limit_s, groups
+        words_of_command(program), folder, environment_of(program), program.time_limit_s, groups
     )
 
 
-def _success(known: Known) -> Outcome:
+def _success(known: StoredRun) -> Outcome:
     return Outcome(known.records, "", known.seconds, known.version)
 
 
-def _read(task: _Task, folder: Path) -> dict[str, Record]:
+def _read(task: _Task, folder: Path) -> dict[str, WrittenCurve]:
     return {
         name: read_output(folder, reading, task.quantities[name])
         for name, reading in task.program.reads.items()
@@ -212,7 +212,7 @@ def judged(program: Program, ended: Ended) -> str:
     return ""
 
 
-def _short(records: Mapping[str, Record], needed: Needed) -> str:
+def _short(records: Mapping[str, WrittenCurve], needed: Needed) -> str:
     """Name a curve that ends before the needed value by more than its last step."""
     for name, last in needed.items():
         at = records[name].at

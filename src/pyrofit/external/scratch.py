@@ -47,7 +47,7 @@ def scratch() -> Iterator[Path]:
         unnamed = folder / f"new_{LOCK}"
         lock = unnamed.open("w")
         fcntl.flock(lock, fcntl.LOCK_EX)
-        unnamed.rename(folder / LOCK)  # locked before `sweep` can find it
+        unnamed.rename(folder / LOCK)  # locked before `sweep_scratch` can find it
     with lock:
         try:
             yield folder
@@ -81,7 +81,7 @@ def _written(folder: Path) -> Iterator[None]:
         ) from None
 
 
-def sweep() -> int:
+def sweep_scratch() -> int:
     """Remove the folders that killed processes of this node have left; return their number."""
     removed = 0
     if sys.platform == "win32":

@@ -19,14 +19,14 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from pyrofit.errors import ProgramError
-from pyrofit.external.output import Record
+from pyrofit.external.output import WrittenCurve
 
 Content = dict[str, Any]
 PART = ".part"
 """Suffix of files that are being written; the next run deletes those of killed processes."""
 
 
-class Known(NamedTuple):
+class StoredRun(NamedTuple):
     """The record of a run that succeeded.
 
     Parameters
@@ -39,7 +39,7 @@ class Known(NamedTuple):
         Version that the program prints, if it does.
     """
 
-    records: Mapping[str, Record]
+    records: Mapping[str, WrittenCurve]
     seconds: float
     version: str = ""
 
@@ -56,18 +56,18 @@ class Store:
     def __init__(self, folder: str) -> None:
         self.folder = Path(folder) if folder else None
 
-    def known(self, key: str) -> Known | None:
+    def known(self, key: str) -> StoredRun | None:
         """Return the record of a run that succeeded; None if there is none."""
         content = _read(self._run(key), gzip.decompress)
         if content is None:
             return None
         records = {
-            name: Record(np.array(one["at"]), np.array(one["value"]))
+            name: WrittenCurve(np.array(one["at"]), np.array(one["value"]))
             for name, one in content["signals"].items()
         }
-        return Known(records, content["seconds"], content["version"])
+        return StoredRun(records, content["seconds"], content["version"])
 
-    def keep(self, key: str, run: Known) -> None:
+    def keep(self, key: str, run: StoredRun) -> None:
         """Keep the curves of a run."""
         path = self._run(key)
         if path is None:

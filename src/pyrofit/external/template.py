@@ -40,10 +40,10 @@ def bytes_of(text: str) -> bytes:
     return text.encode("utf-8", "surrogateescape")
 
 
-def places(text: str) -> Iterator[tuple[str, int]]:
+def places_of_names(text: str) -> Iterator[tuple[str, int]]:
     """Yield name and line, from 1, of every placeholder.
 
-    >>> list(places("k = #k#" + chr(10) + "### c = #c# ###"))
+    >>> list(places_of_names("k = #k#" + chr(10) + "### c = #c# ###"))
     [('k', 1), ('c', 2)]
     """
     for number, line in enumerate(text.split("\n"), start=1):
@@ -60,7 +60,7 @@ def check_template(path: str, text: str, known: Iterable[str]) -> None:
         With file and line.
     """
     known = set(known)
-    found = list(places(text))
+    found = list(places_of_names(text))
     if not found:
         raise ProgramError(
             f"{path}: there is no placeholder, so that all runs would be the same; put `#name#` "
@@ -74,16 +74,16 @@ def check_template(path: str, text: str, known: Iterable[str]) -> None:
             )
 
 
-def number(value: float) -> str:
+def exact_number(value: float) -> str:
     """Return a number with all its digits.
 
-    >>> number(0.1), number(1e-3 / 3.0), number(5e20)
+    >>> exact_number(0.1), exact_number(1e-3 / 3.0), exact_number(5e20)
     ('0.1', '0.0003333333333333333', '5e+20')
     """
     return repr(float(value))
 
 
-def fill(text: str, values: Mapping[str, float]) -> str:
+def fill_template(text: str, values: Mapping[str, float]) -> str:
     """Return the template with numbers in place of the placeholders.
 
     Raises
@@ -93,10 +93,10 @@ def fill(text: str, values: Mapping[str, float]) -> str:
 
     Examples
     --------
-    >>> fill("CONDUCTIVITY=#k#,", {"k": 0.25})
+    >>> fill_template("CONDUCTIVITY=#k#,", {"k": 0.25})
     'CONDUCTIVITY=0.25,'
     """
-    for name, _ in places(text):
+    for name, _ in places_of_names(text):
         if not math.isfinite(values[name]):
             raise ValueError(f"the value of '#{name}#' is not finite")
-    return PLACEHOLDER.sub(lambda found: number(values[found[1]]), text)
+    return PLACEHOLDER.sub(lambda found: exact_number(values[found[1]]), text)

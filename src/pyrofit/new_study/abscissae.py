@@ -4,9 +4,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from pyrofit.data.csvfile import Table
+from pyrofit.data.csvfile import FileTable
 from pyrofit.new_study.headers import is_abscissa, is_foreign, is_of_sample
-from pyrofit.new_study.units import kind_of, stated_unit
+from pyrofit.new_study.units import kind_of_unit, stated_unit
 from pyrofit.quantities.base import Quantity
 from pyrofit.quantities.units import SCALES, ZEROS_K, header_key, unit_key
 
@@ -14,8 +14,8 @@ _SAME = 1e-3
 """Largest difference of two columns of the same times, as a fraction of the last one."""
 
 
-def candidates(
-    table: Table, quantities: Sequence[Quantity], role: str, empty: Sequence[str]
+def abscissa_candidates(
+    table: FileTable, quantities: Sequence[Quantity], role: str, empty: Sequence[str]
 ) -> list[str]:
     """Return the columns that may be the time or the temperature; one where it is clear.
 
@@ -39,16 +39,16 @@ def candidates(
     return numbers or known or named
 
 
-def _by_unit(table: Table, names: Sequence[str], role: str) -> list[str]:
+def _by_unit(table: FileTable, names: Sequence[str], role: str) -> list[str]:
     """Return the one column with a unit of a role; none where several have it."""
     units = {n: stated_unit(table, n, (role,)) for n in names if not is_foreign(n)}
-    of_role = [n for n, (unit, read) in units.items() if read and kind_of(unit, (role,))]
+    of_role = [n for n, (unit, read) in units.items() if read and kind_of_unit(unit, (role,))]
     if len(of_role) != 1 or (role == "time" and (np.diff(table.columns[of_role[0]]) < 0.0).any()):
         return []
     return of_role
 
 
-def _agree(table: Table, names: Sequence[str], role: str) -> bool:
+def _agree(table: FileTable, names: Sequence[str], role: str) -> bool:
     """Tell whether columns hold the same times or temperatures, each in its own unit."""
     found = []
     for name in names:

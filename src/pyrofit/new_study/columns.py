@@ -6,20 +6,20 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from pyrofit.data.convert import OTHER_ZERO
-from pyrofit.data.csvfile import Table
+from pyrofit.data.csvfile import FileTable
 from pyrofit.data.stated import Stated
 from pyrofit.data.suspect import FALLEN
 from pyrofit.experiments import measurable
-from pyrofit.new_study.abscissae import candidates
+from pyrofit.new_study.abscissae import abscissa_candidates
 from pyrofit.new_study.headers import (
     is_error,
     is_usual,
     may_be,
-    root_of,
+    root_of_header,
     stem_of,
 )
-from pyrofit.new_study.reasons import is_change, is_empty, unused
-from pyrofit.new_study.units import guessed_unit, kind_of, kinds_of, stated_unit
+from pyrofit.new_study.reasons import is_empty, is_stated_change, why_unused
+from pyrofit.new_study.units import guessed_unit, kind_of_unit, kinds_of_units, stated_unit
 from pyrofit.quantities import known_quantities
 from pyrofit.quantities.base import Quantity
 from pyrofit.quantities.units import SCALES, header_key, unit_key
@@ -34,7 +34,7 @@ _NAMELESS = ("value", "signal", "y", "balance", "loadcell", "waage", "column2")
 
 
 @dataclass(frozen=True)
-class Found:
+class FoundColumn:
     """A quantity that was found in a file.
 
     Parameters
@@ -102,12 +102,12 @@ class Recognised:
         Whether no column may be the time.
     """
 
-    signals: tuple[Found, ...]
+    signals: tuple[FoundColumn, ...]
     left: Mapping[str, str]
     timeless: bool = False
 
 
-def recognise(table: Table, kind: str) -> Recognised:
+def recognise(table: FileTable, kind: str) -> Recognised:
     """Assign columns and units to the quantities of a kind of experiment.
 
     Names that the reader knows come before words that hold them. A unit is that of the file, else
@@ -119,7 +119,7 @@ def recognise(table: Table, kind: str) -> Recognised:
     >>> from pathlib import Path
     >>> columns = {"t": np.arange(3.0), "T_degC": np.array([20.0, 30.0, 40.0])}
     >>> columns["weight"] = np.array([100.0, 100.0, 99.0])
-    >>> table = Table(Path("tga.csv"), columns, dict.fromkeys(columns), 2)
+    >>> table = FileTable(Path("tga.csv"), columns, dict.fromkeys(columns), 2)
     >>> (found,) = recognise(table, "tga").signals
     >>> found.columns
     {'time': 't', 'temperature': 'T_degC', 'value': 'weight'}
@@ -129,14 +129,14 @@ def recognise(table: Table, kind: str) -> Recognised:
     quantities = sorted(measurable(kind).values(), key=_rank)
     empty = [name for name in table.columns if is_empty(table, name)]
     roles = dict.fromkeys(r for q in quantities for r in q.roles if r not in _OWN)
-    possible = {role: candidates(table, quantities, role, empty) for role in roles}
+    possible = {role: abscissa_candidates(table, quantities, role, empty) for role in roles}
     shared = {role: names[0] if len(names) == 1 else "" for role, names in possible.items()}
     taken = {*empty, *shared.values()}
     signals, left = _signals(table, [n for n in table.columns if n not in taken], quantities)
     signals = signals or {quantities[0].name: (quantities[0], "")}
     found = _all_found(table, signals, shared)
     used = {header for one in found for header in one.columns.values()}
-    reasons = {n: left.get(n) or unused(table, n, kind) for n in table.columns if n not in used}
+    reasons = {n: left.get(n) or why_unused(table, n, kind) for n in table.columns if n not in used}
     return Recognised(found, reasons, timeless=not possible.get("time"))
 
 
@@ -146,7 +146,7 @@ def _rank(quantity: Quantity) -> tuple[bool, bool, bool, str]:
 
 
 def _signals(
-    table: Table, free: Sequence[str], quantities: Sequence[Quantity]
+    table: FileTable, free: Sequence[str], quantities: Sequence[Quantity]
 ) -> tuple[dict[str, tuple[Quantity, str]], dict[str, str]]:
     """Return quantity and column of each signal, and why other columns are none."""
     claims: dict[str, list[str]] = {}
@@ -155,8 +155,8 @@ def _signals(
         usual = [q.name for q in quantities if is_usual(name, q)]
         if not usual and stem_of(name) in _NAMELESS:
             unit = table.units[name] or _unit_one(table, name)
-            usual = [q.name for q in quantities if kind_of(unit, q.scales)]
-        if is_change(table, name):
+            usual = [q.name for q in quantities if kind_of_unit(unit, q.scales)]
+        if is_stated_change(table, name):
             usual = [q.name for q in quantities if q.scales[0] == "fraction" and "mass" in q.scales]
         owners = usual or [q.name for q in quantities if may_be(name, q)]
         if len(owners) == 1:
@@ -179,14 +179,14 @@ def _signals(
     return signals, left
 
 
-def _unit_one(table: Table, name: str) -> str:
+def _unit_one(table: FileTable, name: str) -> str:
     """Return 1 for a column without a unit that starts near 1 and never exceeds it by much."""
     values = table.columns[name][np.isfinite(table.columns[name])]
     falls = values.size and abs(values[0] - 1.0) < _NEAR_ONE and values.max() < 1.0 + _NEAR_ONE
     return "1" if falls and values.min() >= 0.0 else ""
 
 
-def _chosen(table: Table, names: Sequence[str], quantity: Quantity) -> list[str]:
+def _chosen(table: FileTable, names: Sequence[str], quantity: Quantity) -> list[str]:
     """Return the columns that are signals of a quantity; none where it is not clear which are.
 
     Of several, the total comes first, beside parts such as a reversing heat flow, then one in the
@@ -197,14 +197,14 @@ def _chosen(table: Table, names: Sequence[str], quantity: Quantity) -> list[str]
         totals = [name for name in first if stem_of(name).startswith("total")]
         if len(totals) == 1:
             return totals
-        own = [n for n in first if kind_of(table.units[n] or "", quantity.scales[:1])]
+        own = [n for n in first if kind_of_unit(table.units[n] or "", quantity.scales[:1])]
         return first if len(first) == 1 else own if len(own) == 1 else []
-    roots = {root_of(name) for name in first}
-    return [n for n in names if root_of(n) in roots] if len(roots) == 1 else []
+    roots = {root_of_header(name) for name in first}
+    return [n for n in names if root_of_header(n) in roots] if len(roots) == 1 else []
 
 
 def _columns(
-    table: Table,
+    table: FileTable,
     quantity: Quantity,
     header: str,
     shared: Mapping[str, str],
@@ -225,8 +225,8 @@ def _columns(
 
 
 def _all_found(
-    table: Table, signals: Mapping[str, tuple[Quantity, str]], shared: Mapping[str, str]
-) -> tuple[Found, ...]:
+    table: FileTable, signals: Mapping[str, tuple[Quantity, str]], shared: Mapping[str, str]
+) -> tuple[FoundColumn, ...]:
     """Return all signals with their columns and units."""
     values = [header for _, header in signals.values()]
     return tuple(
@@ -235,7 +235,9 @@ def _all_found(
     )
 
 
-def _found(table: Table, signal: str, quantity: Quantity, headers: Mapping[str, str]) -> Found:
+def _found(
+    table: FileTable, signal: str, quantity: Quantity, headers: Mapping[str, str]
+) -> FoundColumn:
     """Return a signal with its units, once its columns are known."""
     columns = {role: header for role, header in headers.items() if header}
     missing = tuple(role for role, header in headers.items() if not header)
@@ -243,7 +245,7 @@ def _found(table: Table, signal: str, quantity: Quantity, headers: Mapping[str, 
     unread, guessed = {}, []
     # Time last: where it has no unit, the heating rate tells it.
     for role in sorted(columns, key=("temperature", "value", "uncertainty", "time").index):
-        kinds = kinds_of(quantity, role)
+        kinds = kinds_of_units(quantity, role)
         unit, read = stated_unit(table, columns[role], kinds)
         if role == "uncertainty" and not unit:
             unit, read = stated_unit(table, columns["value"], kinds)
@@ -253,13 +255,14 @@ def _found(table: Table, signal: str, quantity: Quantity, headers: Mapping[str, 
         units[role] = unit or guessed_unit(table, quantity, role, columns, units)
         if not unit:
             guessed.append(role)
-    scale = kind_of(units.get("value", ""), quantity.scales)
+    scale = kind_of_unit(units.get("value", ""), quantity.scales)
     written = {
         role: units[role]
         for role in columns
-        if role in units and not kind_of(table.units[columns[role]] or "", kinds_of(quantity, role))
+        if role in units
+        and not kind_of_unit(table.units[columns[role]] or "", kinds_of_units(quantity, role))
     }
-    return Found(
+    return FoundColumn(
         signal,
         quantity.name,
         columns,
@@ -276,7 +279,7 @@ def _found(table: Table, signal: str, quantity: Quantity, headers: Mapping[str, 
     )
 
 
-def _dried_to(table: Table, header: str, unit: str, quantity: Quantity) -> float | None:
+def _dried_to(table: FileTable, header: str, unit: str, quantity: Quantity) -> float | None:
     """Return the mass fraction at which a record of fractions starts, where it is below 97 %."""
     fractions = {unit_key(word): factor for word, factor in SCALES["fraction"].items()}
     of_mass = quantity.scales[0] == "fraction" and "mass" in quantity.scales
@@ -287,7 +290,7 @@ def _dried_to(table: Table, header: str, unit: str, quantity: Quantity) -> float
     return round(first, 4) if _LEAST_LEFT < first <= FALLEN else None
 
 
-def _is_tared(table: Table, header: str, unit: str, scale: str) -> bool:
+def _is_tared(table: FileTable, header: str, unit: str, scale: str) -> bool:
     """Tell whether the first mass is not the initial mass that the file states."""
     stated = table.stated.mass_kg
     masses = {unit_key(word): factor for word, factor in SCALES["mass"].items()}
@@ -297,7 +300,7 @@ def _is_tared(table: Table, header: str, unit: str, scale: str) -> bool:
     return abs(first - stated) > OTHER_ZERO * stated
 
 
-def _begins_at(table: Table, header: str, unit: str, scale: str) -> float | None:
+def _begins_at(table: FileTable, header: str, unit: str, scale: str) -> float | None:
     """Return the first mass over the stated initial mass, where it is a little below."""
     stated = table.stated.mass_kg
     if scale != "mass" or stated is None or _is_tared(table, header, unit, scale):

@@ -4,12 +4,12 @@ from collections.abc import Sequence
 
 from pyrofit.analysis.copied_records import numbers_of
 from pyrofit.data.copies import copies, is_copy
-from pyrofit.new_study.draft import Measured
+from pyrofit.new_study.draft import MeasuredFile
 from pyrofit.new_study.words import other_number
 from pyrofit.quantities import known_quantities
 
 
-def without_copies(records: Sequence[Measured]) -> tuple[list[Measured], list[str]]:
+def without_copies(records: Sequence[MeasuredFile]) -> tuple[list[MeasuredFile], list[str]]:
     """Return the records without those that repeat the numbers of another, and lines on them.
 
     Of two, that is left out whose name tells another heating rate or flux than its record, else the

@@ -1,6 +1,6 @@
 """The mass or area of a sample by which the values of a file are divided."""
 
-from pyrofit.new_study.columns import Found
+from pyrofit.new_study.columns import FoundColumn
 from pyrofit.quantities.units import PER_AREA, PER_MASS, PER_START
 
 USUAL_AREA_M2 = 0.01
@@ -9,7 +9,7 @@ USUAL_MASS_KG = 5e-6
 """Mass of a sample in a crucible."""
 
 
-def divisor_of(found: Found) -> tuple[str, float] | None:
+def divisor_of(found: FoundColumn) -> tuple[str, float] | None:
     """Return key and value of a signal's divisor, where its unit asks for one.
 
     The value is that of the file, else the usual one, see `is_told`.
@@ -24,7 +24,7 @@ def divisor_of(found: Found) -> tuple[str, float] | None:
     return None
 
 
-def is_told(found: Found, key: str) -> bool:
+def is_told(found: FoundColumn, key: str) -> bool:
     """Tell whether the file gives the divisor of a signal."""
     told = found.area_m2 if key == "sample_area_m2" else found.stated.mass_kg
     return told is not None

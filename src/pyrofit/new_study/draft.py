@@ -10,15 +10,15 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from pyrofit.data.csvfile import Table, read_table
+from pyrofit.data.csvfile import FileTable, read_table
 from pyrofit.data.gas_steps import holds_oxygen
-from pyrofit.data.heating import End, end_of_heating
+from pyrofit.data.heating import EndOfHeating, end_of_heating
 from pyrofit.errors import StudyError
 from pyrofit.experiments import KINDS, files_of, measurable
 from pyrofit.experiments.base import Kind
 from pyrofit.experiments.from_files import Told
-from pyrofit.new_study.columns import Found, recognise
-from pyrofit.new_study.frames import START_K, Course, frames_of, lacking
+from pyrofit.new_study.columns import FoundColumn, recognise
+from pyrofit.new_study.frames import START_K, StatedCourse, frames_of, lacking
 from pyrofit.new_study.one_reaction import one_reaction_describes
 from pyrofit.quantities import known_quantities
 from pyrofit.quantities.units import ICE_POINT_K
@@ -39,7 +39,7 @@ The rate constant is 0.001 1/s some 20 to 80 K below the peak of a reaction at u
 
 
 @dataclass(frozen=True, eq=False)
-class Measured:
+class MeasuredFile:
     """An experiment as far as its file tells.
 
     Parameters
@@ -85,13 +85,13 @@ class Measured:
     told: Told = "record"
     hinted: float | None = None
     headers: tuple[str, ...] = ()
-    signals: tuple[Found, ...] = ()
+    signals: tuple[FoundColumn, ...] = ()
     left: Mapping[str, str] = field(default_factory=dict)
     frames: Mapping[str, pd.DataFrame] = field(default_factory=dict)
-    repeats: tuple["Measured", ...] = ()
+    repeats: tuple["MeasuredFile", ...] = ()
     mended: tuple[str, ...] = ()
     lacks: str = ""
-    end: End | None = None
+    end: EndOfHeating | None = None
     then_gas: str = ""
     gas: str = ""
 
@@ -107,7 +107,7 @@ class Measured:
 
 
 @dataclass(frozen=True)
-class Kinetics:
+class KineticsDraft:
     """Where to look for the kinetics: limits [K] of the reference temperature, residue [-].
 
     ``moisture`` is the loss by drying [-], ``parts_K`` are limits of three parallel reactions.
@@ -174,7 +174,7 @@ def _is_set_point(number: float, facts: Mapping[str, Any]) -> bool:
     return held is not None and min(abs(number - held), abs(number + ICE_POINT_K - held)) < NEAR_K
 
 
-def measured(kind: str, path: Path) -> Measured:
+def read_experiment(kind: str, path: Path) -> MeasuredFile:
     """Read a file of a kind of experiment as far as it goes.
 
     Raises
@@ -188,10 +188,10 @@ def measured(kind: str, path: Path) -> Measured:
     number, told = files.number.find(path.stem)
     hinted = number if told else None
     signals = recognised.signals
-    lacks, course = lacking(recognised), Course()
+    lacks, course = lacking(recognised), StatedCourse()
     if lacks:
         signals = tuple(replace(found, missing=()) for found in signals)
-        course = Course(number / 60.0, START_K if lacks == "temperature" else None)
+        course = StatedCourse(number / 60.0, START_K if lacks == "temperature" else None)
     frames, thinned = frames_of(table, signals, course)
     end = _end_of_heating(frames, table)
     if end is not None:
@@ -207,7 +207,7 @@ def measured(kind: str, path: Path) -> Measured:
     if not name[:1].isalpha():
         name = f"run_{name}".rstrip("_")
     headers = tuple(table.columns)
-    return Measured(
+    return MeasuredFile(
         kind,
         name,
         path,
@@ -245,7 +245,7 @@ def gas_of(name: str) -> str:
     return match[1] if match else ""
 
 
-def _gas_of_columns(kind: str, table: Table) -> str:
+def _gas_of_columns(kind: str, table: FileTable) -> str:
     """Return the gas with oxygen that a column of a heated sample tells; nothing where none does.
 
     In the combustor of a microscale calorimeter it is not that around the sample.
@@ -262,13 +262,13 @@ def _gas_of_columns(kind: str, table: Table) -> str:
     return ""
 
 
-def _then_gas(kind: str, table: Table) -> str:
+def _then_gas(kind: str, table: FileTable) -> str:
     """Return a gas with oxygen that follows another one in a column of gases, or nothing."""
     first, *later = _gases(kind, table) or [""]
     return "" if holds_oxygen(first) else next(filter(holds_oxygen, later), "")
 
 
-def _gases(kind: str, table: Table) -> list[str] | None:
+def _gases(kind: str, table: FileTable) -> list[str] | None:
     """Return the gases that a column of text names in their order; None where none is shown.
 
     That is the case for samples whose mass is not measured in that gas.
@@ -282,7 +282,7 @@ def _gases(kind: str, table: Table) -> list[str] | None:
     return []
 
 
-def _end_of_heating(frames: Mapping[str, pd.DataFrame], table: Table) -> End | None:
+def _end_of_heating(frames: Mapping[str, pd.DataFrame], table: FileTable) -> EndOfHeating | None:
     """Return the end of the heating of a sample; None where the whole record is one."""
     ends = (
         end_of_heating(frame, known_quantities()[name], table.stated)
@@ -292,7 +292,7 @@ def _end_of_heating(frames: Mapping[str, pd.DataFrame], table: Table) -> End | N
     return min((end for end in ends if end is not None), default=None)
 
 
-def kinetics_of(records: Iterable[Measured]) -> Kinetics:
+def kinetics_limits(records: Iterable[MeasuredFile]) -> KineticsDraft:
     """Return where to look for the kinetics, from the temperatures of half the loss of mass.
 
     At the usual heating rates the rate constant there is some 0.01 1/s; 0.001 1/s is reached 20 K
@@ -300,13 +300,13 @@ def kinetics_of(records: Iterable[Measured]) -> Kinetics:
     """
     losses = [loss for run in records if (loss := files_of(run.kind).loss(run.frames)) is not None]
     if not losses:
-        return Kinetics()
+        return KineticsDraft()
     masses = [loss.record for loss in losses if loss.record is not None]
     half = [loss.temperature_K for loss in losses]
     lower, upper = 5.0 * math.floor((min(half) - 150.0) / 5.0), 5.0 * math.ceil(max(half) / 5.0)
     rests = [loss.residue for loss in losses if loss.residue is not None]
-    residue = float(np.mean(rests)) if rests else Kinetics.residue
-    return Kinetics(
+    residue = float(np.mean(rests)) if rests else KineticsDraft.residue
+    return KineticsDraft(
         max(lower, 300.0),
         upper + 30.0,
         min(max(round(residue, 4), 0.001), 0.95),
@@ -328,7 +328,7 @@ def _parts(records: Sequence[tuple[float, ...]]) -> tuple[tuple[float, float], .
     )
 
 
-def check_names(records: Sequence[Measured]) -> None:
+def check_names_of_files(records: Sequence[MeasuredFile]) -> None:
     """Refuse files that would give two experiments one name.
 
     Raises

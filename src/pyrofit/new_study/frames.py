@@ -5,11 +5,11 @@ from typing import NamedTuple
 
 import pandas as pd
 
-from pyrofit.data.csvfile import Table
+from pyrofit.data.csvfile import FileTable
 from pyrofit.data.series import read_series
 from pyrofit.data.spec import SeriesSpec
 from pyrofit.errors import DataError
-from pyrofit.new_study.columns import Found, Recognised
+from pyrofit.new_study.columns import FoundColumn, Recognised
 from pyrofit.new_study.divisor import divisor_of
 
 START_K = 300.0
@@ -18,7 +18,7 @@ _TOLD = ("thinned", "left out, the time of", "left out, before", "a change of ma
 """Beginnings of the notes of the reader that a new study tells."""
 
 
-class Course(NamedTuple):
+class StatedCourse(NamedTuple):
     """Heating rate and first temperature that stand for a missing column."""
 
     rate_K_s: float | None = None
@@ -37,7 +37,7 @@ def lacking(recognised: Recognised) -> str:
 
 
 def frames_of(
-    table: Table, signals: Iterable[Found], course: Course
+    table: FileTable, signals: Iterable[FoundColumn], course: StatedCourse
 ) -> tuple[dict[str, pd.DataFrame], tuple[str, ...]]:
     """Return the series that can be read, and whether they are thinned.
 

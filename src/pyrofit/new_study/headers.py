@@ -99,6 +99,6 @@ def is_error(
     return header == (before[-1] if before else values[0])
 
 
-def root_of(name: str) -> str:
+def root_of_header(name: str) -> str:
     """Return a header without its unit and the number at its end."""
     return re.sub(r"\d+$", "", stem_of(name))

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from pyrofit.data.csvfile import Table
+from pyrofit.data.csvfile import FileTable
 from pyrofit.experiments import KINDS
 from pyrofit.new_study.headers import is_abscissa
 from pyrofit.results.files import write_csv
@@ -23,7 +23,7 @@ _FEWEST = 5
 """Rows of a test."""
 
 
-def split_rows(kind: str, table: Table, folder: Path) -> list[Path]:
+def split_rows(kind: str, table: FileTable, folder: Path) -> list[Path]:
     """Return the files of tests that stand below each other, written to a folder.
 
     None where no one column is a number or a rate of the test that changes where the times start
@@ -67,7 +67,9 @@ def _tests(time: np.ndarray, label: np.ndarray) -> Iterator[tuple[float, slice]]
         yield float(number), slice(first, end)
 
 
-def _written(kind: str, table: Table, label: str, number: float, rows: slice, folder: Path) -> Path:
+def _written(
+    kind: str, table: FileTable, label: str, number: float, rows: slice, folder: Path
+) -> Path:
     frame = {
         f"{name} ({unit})" if (unit := table.units[name]) else name: column[rows]
         for name, column in table.columns.items()

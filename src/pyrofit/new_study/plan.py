@@ -5,11 +5,11 @@ from dataclasses import dataclass
 
 from pyrofit.experiments import files_of
 from pyrofit.experiments.base import Stage
-from pyrofit.new_study.draft import Measured
+from pyrofit.new_study.draft import MeasuredFile
 
 
 @dataclass(frozen=True)
-class Term:
+class TermOfPlan:
     """A term of a cost of a new study."""
 
     experiment: str
@@ -18,7 +18,7 @@ class Term:
 
 
 @dataclass(frozen=True)
-class Part:
+class PartOfPlan:
     """Experiments of one stage.
 
     Parameters
@@ -31,18 +31,18 @@ class Part:
         Terms of the cost.
     """
 
-    runs: tuple[Measured, ...]
+    runs: tuple[MeasuredFile, ...]
     held_out: tuple[str, ...]
-    terms: tuple[Term, ...]
+    terms: tuple[TermOfPlan, ...]
 
     @property
-    def fitted(self) -> tuple[Measured, ...]:
+    def fitted(self) -> tuple[MeasuredFile, ...]:
         """Experiments that the cost uses."""
         used = {term.experiment for term in self.terms}
         return tuple(run for run in self.runs if run.name in used)
 
 
-def part_of(stage: Stage, records: Iterable[Measured]) -> Part:
+def part_of(stage: Stage, records: Iterable[MeasuredFile]) -> PartOfPlan:
     """Return the experiments of a stage, those it holds out, and the terms of its cost.
 
     Of two or more fluxes of a kind, the experiments with the largest are held out. Of three or
@@ -58,22 +58,22 @@ def part_of(stage: Stage, records: Iterable[Measured]) -> Part:
         own = [run for run in own if _shows_loss(run) or not rate]
         held += _last(own) if stage == "imp" else _middle(own)
     terms = [
-        Term(run.name, signal, normalisation)
+        TermOfPlan(run.name, signal, normalisation)
         for run in runs
         if run.name not in held and (stage == "imp" or _shows_loss(run) or not rate)
         for signal, normalisation in _terms(run)
     ]
     if len({term.signal for term in terms}) == 1 and stage == "kinetics":
-        terms = [Term(term.experiment, term.signal, "") for term in terms]
-    return Part(runs, tuple(held), tuple(terms))
+        terms = [TermOfPlan(term.experiment, term.signal, "") for term in terms]
+    return PartOfPlan(runs, tuple(held), tuple(terms))
 
 
-def _numbers(runs: Sequence[Measured]) -> dict[str, float | str]:
+def _numbers(runs: Sequence[MeasuredFile]) -> dict[str, float | str]:
     """Return the number of each experiment by name; the name where the number is not known."""
     return {run.name: run.number if run.told else run.name for run in runs}
 
 
-def _last(runs: Sequence[Measured]) -> list[str]:
+def _last(runs: Sequence[MeasuredFile]) -> list[str]:
     """Return the experiments with the largest of two or more numbers."""
     numbers = _numbers(runs)
     if len(set(numbers.values())) < 2:
@@ -85,7 +85,7 @@ def _last(runs: Sequence[Measured]) -> list[str]:
     return [name for name, number in numbers.items() if number == last]
 
 
-def _middle(runs: Sequence[Measured]) -> list[str]:
+def _middle(runs: Sequence[MeasuredFile]) -> list[str]:
     """Return the experiments with the middle of three or more heating rates; none that is held."""
     ramps = [run for run in runs if not files_of(run.kind).facts(run.frames).get("set_point_K")]
     numbers = {run.name: run.number for run in ramps}
@@ -96,12 +96,12 @@ def _middle(runs: Sequence[Measured]) -> list[str]:
     return [name for name, number in numbers.items() if number == middle]
 
 
-def _shows_loss(run: Measured) -> bool:
+def _shows_loss(run: MeasuredFile) -> bool:
     """Tell whether the cost can use more of an experiment than temperatures."""
     return run.path is None or not all(found.of.is_temperature for found in run.signals)
 
 
-def _terms(run: Measured) -> list[tuple[str, str]]:
+def _terms(run: MeasuredFile) -> list[tuple[str, str]]:
     """Return the signals of a cost, and the divisor of each.
 
     Those are all rates, signals of the released mass where no rate of it is recorded, and the
@@ -120,7 +120,7 @@ def _terms(run: Measured) -> list[tuple[str, str]]:
     return [(f.signal, "mean" if f.of.relative else "range") for f in chosen]
 
 
-def left_out(part: Part) -> list[str]:
+def uncompared(part: PartOfPlan) -> list[str]:
     """Say which signals of fitted experiments no term compares: a mass beside its own rate."""
     compared = {(term.experiment, term.signal) for term in part.terms}
     return [
@@ -131,16 +131,16 @@ def left_out(part: Part) -> list[str]:
     ]
 
 
-def heats(runs: Iterable[Measured]) -> tuple[str, ...]:
+def heats(runs: Iterable[MeasuredFile]) -> tuple[str, ...]:
     """Return the keys of material and reactions on which signals rest, besides the kinetics."""
     found = (f.of.rests_on for run in runs for f in run.signals)
     return tuple(dict.fromkeys(key for keys in found for key in keys))
 
 
-def titles(runs: Sequence[Measured]) -> dict[str, str]:
+def titles(runs: Sequence[MeasuredFile]) -> dict[str, str]:
     """Return by experiment what makes its title unique; empty where it is so already.
 
-    >>> titles([Measured("tga", "a", None, 10.0), Measured("tga", "b", None, 10.0)])
+    >>> titles([MeasuredFile("tga", "a", None, 10.0), MeasuredFile("tga", "b", None, 10.0)])
     {'a': ' (a)', 'b': ' (b)'}
     """
     same = [(run.kind, run.number) for run in runs]

@@ -4,10 +4,10 @@ import re
 
 import numpy as np
 
-from pyrofit.data.csvfile import Table, holds_unclear_numbers
+from pyrofit.data.csvfile import FileTable, holds_unclear_numbers
 from pyrofit.experiments import KINDS, OF_FILES, measurable
 from pyrofit.new_study.headers import is_abscissa, is_foreign, is_usual, may_be, stem_of
-from pyrofit.new_study.units import kind_of
+from pyrofit.new_study.units import kind_of_unit
 from pyrofit.quantities.units import header_key
 
 NO_VALUES = "it holds no values"
@@ -19,23 +19,23 @@ _TOTAL = re.compile(r"thr|(total|cumul|integr)(?!.*rate).*heat.*|.*heatreleased.
 _MEASURED = re.compile(r"t|t[^a-z].*|t(gas|top|front|back|surf).*|.*temp.*|.*(flow|mdot|flux).*")
 
 
-def is_change(table: Table, header: str) -> bool:
+def is_stated_change(table: FileTable, header: str) -> bool:
     """Tell whether a column is a change of mass that the file says how to read.
 
     It is in units of a fraction, or the file states the initial mass.
     """
-    told = kind_of(table.units[header] or "", ("fraction",)) or table.stated.mass_kg
+    told = kind_of_unit(table.units[header] or "", ("fraction",)) or table.stated.mass_kg
     return bool(told and _CHANGE.fullmatch(header_key(header)))
 
 
-def is_empty(table: Table, header: str) -> bool:
+def is_empty(table: FileTable, header: str) -> bool:
     """Tell whether a column holds nothing but zeros and cells without a value, or text."""
     return not np.nan_to_num(table.columns[header]).any() and not holds_unclear_numbers(
         table, header
     )
 
 
-def unused(table: Table, header: str, kind: str) -> str:
+def why_unused(table: FileTable, header: str, kind: str) -> str:
     """Say why a column that is no quantity of a kind of experiment is left out."""
     if is_empty(table, header) and header not in table.faults:
         return NO_VALUES if np.isnan(table.columns[header]).all() else PLACEHOLDER

@@ -4,7 +4,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 
-from pyrofit.new_study.draft import Measured
+from pyrofit.new_study.draft import MeasuredFile
 
 _REPEAT = re.compile(r"_(?:r|rep|repeat|run|test)?_?\d{1,2}$", re.IGNORECASE)
 
@@ -18,17 +18,17 @@ def root_of(name: str) -> str:
     return _REPEAT.sub("", name)
 
 
-def grouped(records: Sequence[Measured]) -> list[Measured]:
+def tests_of_names(records: Sequence[MeasuredFile]) -> list[MeasuredFile]:
     """Return the tests: files whose names differ in a number at the end alone are repeats of one.
 
     They must be of one kind and have the same heating rate or flux, which must be known. A test
     has the signals of all its repeats.
 
-    >>> one = [Measured("tga", f"a_10K_{end}", None, 10.0) for end in ("R1", "R2")]
-    >>> [test.name for test in grouped([*one, Measured("tga", "a_20K_1", None, 20.0)])]
+    >>> one = [MeasuredFile("tga", f"a_10K_{end}", None, 10.0) for end in ("R1", "R2")]
+    >>> [test.name for test in tests_of_names([*one, MeasuredFile("tga", "a_20K_1", None, 20.0)])]
     ['a_10K', 'a_20K_1']
     """
-    alike: dict[tuple[str, str, float], list[Measured]] = {}
+    alike: dict[tuple[str, str, float], list[MeasuredFile]] = {}
     for run in records:
         root = root_of(run.name) if run.told else run.name
         alike.setdefault((run.kind, root, run.number), []).append(run)
@@ -41,7 +41,7 @@ def grouped(records: Sequence[Measured]) -> list[Measured]:
     return tests
 
 
-def _test(name: str, runs: Sequence[Measured]) -> Measured:
+def _test(name: str, runs: Sequence[MeasuredFile]) -> MeasuredFile:
     signals = {found.signal: found for run in reversed(runs) for found in run.signals}
     order = {found.signal: None for run in runs for found in run.signals}
     return replace(

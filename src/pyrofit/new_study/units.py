@@ -5,7 +5,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from pyrofit.data.csvfile import FloatArray, Table
+from pyrofit.data.csvfile import FileTable, FloatArray
 from pyrofit.data.suspect import STANDARD_RATES
 from pyrofit.numerics import functions
 from pyrofit.quantities.base import Quantity
@@ -51,12 +51,12 @@ _INTERVALS, _HELD = 50, 0.05
 """Parts of a record with a slope each; below that share of the largest slope it is held."""
 
 
-def kinds_of(quantity: Quantity, role: str) -> tuple[str, ...]:
+def kinds_of_units(quantity: Quantity, role: str) -> tuple[str, ...]:
     """Return the kinds of unit that a role of a quantity may have, see `SCALES`."""
     return quantity.scales if role in ("value", "uncertainty") else (role,)
 
 
-def kind_of(unit: str, kinds: tuple[str, ...]) -> str:
+def kind_of_unit(unit: str, kinds: tuple[str, ...]) -> str:
     """Return of which kind a unit is; nothing where it is of none."""
     key = unit_key(unit)
     return next((k for k in kinds if key in {unit_key(word) for word in SCALES[k]}), "")
@@ -79,14 +79,14 @@ def split_unit(header: str) -> tuple[str, str]:
     return header, ""
 
 
-def stated_unit(table: Table, header: str, kinds: tuple[str, ...]) -> tuple[str, bool]:
+def stated_unit(table: FileTable, header: str, kinds: tuple[str, ...]) -> tuple[str, bool]:
     """Return the unit that a file states for a column, and whether that can be read.
 
     It is returned in a spelling that the reader knows; nothing where the file states none.
     """
     given, end = table.units[header], split_unit(header)[1]
     # A letter at the end of a name may be a symbol: T_s.
-    if not given and (len(end) > 1 or kind_of(end, kinds)):
+    if not given and (len(end) > 1 or kind_of_unit(end, kinds)):
         given = end
     if not given:
         # "Mass fraction" implies the unit 1.
@@ -101,13 +101,13 @@ def stated_unit(table: Table, header: str, kinds: tuple[str, ...]) -> tuple[str,
         _SPELLINGS.get(plain, ""),
         _SPELLINGS.get(spaceless, ""),
     ):
-        if unit and kind_of(unit, kinds):
+        if unit and kind_of_unit(unit, kinds):
             return unit, True
     return given, False
 
 
 def guessed_unit(
-    table: Table,
+    table: FileTable,
     quantity: Quantity,
     role: str,
     columns: Mapping[str, str],
@@ -126,7 +126,7 @@ def guessed_unit(
     return quantity.guess(float(numbers[0]), float(numbers.max()))
 
 
-def _time_unit(table: Table, time_column: str, heated: str) -> str:
+def _time_unit(table: FileTable, time_column: str, heated: str) -> str:
     """Return s or min, whichever makes the heating rate nearer to a usual one."""
     columns = np.array([table.columns[time_column], table.columns[heated]])
     time, temperature = columns[:, np.isfinite(columns).all(axis=0)]

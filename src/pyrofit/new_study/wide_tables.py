@@ -14,7 +14,7 @@ from typing import Literal
 import numpy as np
 import pandas as pd
 
-from pyrofit.data.csvfile import Table, read_table
+from pyrofit.data.csvfile import FileTable, read_table
 from pyrofit.experiments import KINDS, files_of, measurable
 from pyrofit.new_study.headers import is_abscissa
 from pyrofit.new_study.long_tables import split_rows
@@ -31,7 +31,7 @@ How = Literal["unit", "number", "index"]
 
 
 @dataclass(frozen=True)
-class Label:
+class HeaderLabel:
     """What the name of a column tells of its test: the rest of the name, and the number."""
 
     rest: str
@@ -40,7 +40,7 @@ class Label:
 
 
 @dataclass(frozen=True)
-class Part:
+class PartOfTable:
     """The columns of a test by their new headers; time [s] is computed where rate is given."""
 
     number: float
@@ -49,7 +49,7 @@ class Part:
     rate_K_min: float | None = None
 
 
-def split(kind: str, path: Path, folder: Path) -> list[Path]:
+def split_table(kind: str, path: Path, folder: Path) -> list[Path]:
     """Return the files of the tests in a table, side by side or below each other, in a folder.
 
     The table itself, if it does not hold several.
@@ -66,13 +66,15 @@ def split(kind: str, path: Path, folder: Path) -> list[Path]:
     return split_rows(kind, table, folder) or [path]
 
 
-def label_of(kind: str, header: str) -> Label | None:
+def label_of_header(kind: str, header: str) -> HeaderLabel | None:
     """Return what a header tells of its test; None where it tells nothing.
 
-    >>> label_of("tga", "m 2,5 K/min"), label_of("tga", "Mass (2)"), label_of("tga", "mass")
-    (Label(rest='m', number=2.5, how='unit'), Label(rest='Mass', number=2.0, how='index'), None)
-    >>> label_of("cone", "HRR 50kW"), label_of("cone", "TC 1")
-    (Label(rest='HRR', number=50.0, how='unit'), None)
+    >>> label_of_header("tga", "m 2,5 K/min")
+    HeaderLabel(rest='m', number=2.5, how='unit')
+    >>> label_of_header("tga", "Mass (2)")
+    HeaderLabel(rest='Mass', number=2.0, how='index')
+    >>> label_of_header("cone", "HRR 50kW"), label_of_header("cone", "TC 1")
+    (HeaderLabel(rest='HRR', number=50.0, how='unit'), None)
     """
     unit = files_of(kind).number.unit
     with_unit = re.compile(
@@ -83,21 +85,21 @@ def label_of(kind: str, header: str) -> Label | None:
         found = list(pattern.finditer(header))
         if len(found) == 1:
             rest = header[: found[0].start()] + header[found[0].end() :]
-            return Label(rest.strip(" _-"), _value(found[0][1]), "unit")
+            return HeaderLabel(rest.strip(" _-"), _value(found[0][1]), "unit")
     last = _LAST.search(header)
     if not heated or last is None:
         return None
     how: How = "index" if header.endswith(")") else "number"
-    return Label(header[: last.start()].strip(" _-"), _value(last[1]), how)
+    return HeaderLabel(header[: last.start()].strip(" _-"), _value(last[1]), how)
 
 
 def _value(text: str) -> float:
     return float(text.replace(",", "."))
 
 
-def _tests(kind: str, table: Table) -> list[Part]:
+def _tests(kind: str, table: FileTable) -> list[PartOfTable]:
     """Return the tests of a table; none if they are not clear."""
-    labels = {name: label_of(kind, name) for name in table.columns}
+    labels = {name: label_of_header(kind, name) for name in table.columns}
     own = {name: label for name, label in labels.items() if label is not None}
     shared = [name for name in table.columns if name not in own]
     if KINDS[kind].stage == "kinetics":
@@ -115,7 +117,9 @@ def _tests(kind: str, table: Table) -> list[Part]:
     return [test for test in tests if test is not None] if None not in tests else []
 
 
-def _paired(own: Mapping[str, Label], shared: list[str]) -> tuple[dict[str, Label], list[str]]:
+def _paired(
+    own: Mapping[str, HeaderLabel], shared: list[str]
+) -> tuple[dict[str, HeaderLabel], list[str]]:
     """Give each of as many temperatures as masses to the mass of its place.
 
     The names of the temperatures are the same but for a number that tells them apart.
@@ -131,26 +135,26 @@ def _paired(own: Mapping[str, Label], shared: list[str]) -> tuple[dict[str, Labe
     if not by_place:
         return dict(own), shared
     pairs = zip(temperatures, others, strict=True)
-    given = {T: Label(own[T].rest, own[m].number, own[m].how) for T, m in pairs}
+    given = {T: HeaderLabel(own[T].rest, own[m].number, own[m].how) for T, m in pairs}
     return {**own, **given}, shared
 
 
-def _rest(own: Mapping[str, Label], name: str) -> str:
+def _rest(own: Mapping[str, HeaderLabel], name: str) -> str:
     return own[name].rest if name in own else name
 
 
 def _test(
     kind: str,
-    table: Table,
+    table: FileTable,
     key: tuple[float, How],
     columns: Mapping[str, str],
     shared: list[str],
-) -> Part | None:
+) -> PartOfTable | None:
     """Return a test, or None where its columns are not those of one."""
     number, how = key
     named = {name: name for name in shared} | dict(columns)
     if KINDS[kind].stage != "kinetics":
-        return Part(number, how, named) if all(columns) else None
+        return PartOfTable(number, how, named) if all(columns) else None
     times = [n for n in named if is_abscissa(n, "time")]
     temperatures = [n for n in named if is_abscissa(n, "temperature")]
     values = [n for n in named if n not in (*times, *temperatures)]
@@ -166,7 +170,7 @@ def _test(
     own |= {"Mass" if only_mass else n: named[n] for n in values if n not in shared}
     if how == "index" and temperatures[0] in shared:
         return None
-    return Part(number, how, own, number if not times and how == "unit" else None)
+    return PartOfTable(number, how, own, number if not times and how == "unit" else None)
 
 
 def _falls(values: FloatArray) -> bool:
@@ -174,7 +178,7 @@ def _falls(values: FloatArray) -> bool:
     return numbers.size > 1 and bool(numbers[-1] < (1.0 - _LEAST_LOST) * numbers[0])
 
 
-def _written(kind: str, table: Table, test: Part, folder: Path) -> Path:
+def _written(kind: str, table: FileTable, test: PartOfTable, folder: Path) -> Path:
     columns = {new: table.columns[name] for new, name in test.columns.items()}
     rows = ~np.any([np.isnan(column) for column in columns.values()], axis=0)
     frame: dict[str, FloatArray] = {}

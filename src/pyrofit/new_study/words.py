@@ -6,10 +6,10 @@ from collections.abc import Iterable, Mapping
 from pyrofit.analysis.differing_repeats import lines_on_repeats
 from pyrofit.experiments import files_of
 from pyrofit.experiments.from_files import Told
-from pyrofit.new_study.columns import Found
+from pyrofit.new_study.columns import FoundColumn
 from pyrofit.new_study.divisor import divisor_of, is_told
-from pyrofit.new_study.draft import Measured
-from pyrofit.new_study.plan import Part
+from pyrofit.new_study.draft import MeasuredFile
+from pyrofit.new_study.plan import PartOfPlan
 from pyrofit.quantities.units import SCALES
 
 AREA = "sample_area_m2"
@@ -18,7 +18,7 @@ _ALIKE = 0.1
 """Share by which two numbers of one test may differ."""
 
 
-def signal_lines(run: Measured, asks_place: bool = False) -> list[str]:
+def signal_lines(run: MeasuredFile, asks_place: bool = False) -> list[str]:
     """Return the lines of the study file on the signals of an experiment and on unused columns.
 
     ``asks_place`` asks once where the thermocouple of the first back temperature was.
@@ -39,7 +39,7 @@ def signal_lines(run: Measured, asks_place: bool = False) -> list[str]:
     return [f"      {line}" for line in lines]
 
 
-def _signal(run: Measured, found: Found) -> list[str]:
+def _signal(run: MeasuredFile, found: FoundColumn) -> list[str]:
     lines = [f"{found.signal}:", f"  file: data/{run.name}.csv"]
     if found.signal != found.quantity:
         lines.append(f"  quantity: {found.quantity}")
@@ -74,7 +74,7 @@ def _signal(run: Measured, found: Found) -> list[str]:
         ]
     if (begins := _begins(found)) != "":
         lines.append(f"  # CHANGE where wrong: {begins}")
-    if (gas := gas_line(run)) != "":
+    if (gas := oxygen_words(run)) != "":
         lines.append(f"  # {gas}")
     if run.end is not None:
         lines.append(f"  until_s: {run.end.time_s:g} # {run.end.why}")
@@ -89,7 +89,7 @@ def _signal(run: Measured, found: Found) -> list[str]:
     return lines
 
 
-def _begins(found: Found) -> str:
+def _begins(found: FoundColumn) -> str:
     """Say that a record starts below the initial mass that its file states."""
     if found.begins_at is None or found.of.scales[0] != "fraction":
         return ""
@@ -99,13 +99,13 @@ def _begins(found: Found) -> str:
     )
 
 
-def has_back(run: Measured) -> bool:
+def has_back(run: MeasuredFile) -> bool:
     """Tell whether an experiment has a back temperature."""
     signals = [found for one in run.repeats or (run,) for found in one.signals]
     return any(found.of.before_backing for found in signals)
 
 
-def _place(found: Found) -> list[str]:
+def _place(found: FoundColumn) -> list[str]:
     """Ask where the sensor of a temperature stood."""
     return [
         "  # CHANGE where a layer such as wool is given as `backing`. Of a thermocouple between",
@@ -114,14 +114,14 @@ def _place(found: Found) -> list[str]:
     ]
 
 
-def assumes_area(run: Measured) -> bool:
+def assumes_area(run: MeasuredFile) -> bool:
     """Tell whether values of an experiment are divided by an area that no file tells."""
     signals = [found for one in run.repeats or (run,) for found in one.signals]
     divisors = [(found, divisor) for found in signals if (divisor := divisor_of(found))]
     return any(key == AREA and not is_told(found, key) for found, (key, _) in divisors)
 
 
-def said(run: Measured) -> list[str]:
+def lines_on_file(run: MeasuredFile) -> list[str]:
     """Say in one line how a file was read, and in further ones what is to be looked at."""
     read = [
         f"{found.signal}: {', '.join(_parts(run, found, i))}" for i, found in enumerate(run.signals)
@@ -131,7 +131,7 @@ def said(run: Measured) -> list[str]:
     remarks = ((found.signal, _remark(run, found)) for found in run.signals)
     lines += [f"{signal}: {remark}" for signal, remark in remarks if remark]
     lines += [line for found in run.signals if (line := _begins(found)) != ""]
-    if (gas := gas_line(run)) != "":
+    if (gas := oxygen_words(run)) != "":
         lines.append(gas)
     if run.end is not None:
         lines.append(f"read until {run.end.time_s:g} s: {run.end.why}")
@@ -140,7 +140,7 @@ def said(run: Measured) -> list[str]:
     return [f"{run.path}: {line}" for line in lines]
 
 
-def _parts(run: Measured, found: Found, place: int) -> list[str]:
+def _parts(run: MeasuredFile, found: FoundColumn, place: int) -> list[str]:
     """Say which columns a signal has; those of the signals before are not told again."""
     before = {(role, header) for one in run.signals[:place] for role, header in one.columns.items()}
     parts = []
@@ -175,12 +175,12 @@ _NOT_TOLD: Mapping[Told, str] = {
 }
 
 
-def number_comment(run: Measured) -> str:
+def number_comment(run: MeasuredFile) -> str:
     """Return the comment of the study on a heating rate or flux; empty where none is needed."""
     return _NOT_TOLD.get(run.told, "") or "".join(f"CHANGE: {said}" for said in other_number(run))
 
 
-def other_number(run: Measured) -> list[str]:
+def other_number(run: MeasuredFile) -> list[str]:
     """Say that the name of a file hints to another number than its record shows.
 
     A factor of 60 between both is that of minutes and seconds.
@@ -207,18 +207,18 @@ def other_number(run: Measured) -> list[str]:
     ]
 
 
-def gas_line(run: Measured) -> str:
+def oxygen_words(run: MeasuredFile) -> str:
     """Say that the gas around a sample holds oxygen; nothing where it does not."""
     if not run.in_oxygen:
         return ""
     return f"The gas is {run.gas}: the model has no oxidation. Leave the test out, or judge its fit"
 
 
-def _gas_changes(run: Measured) -> str:
+def _gas_changes(run: MeasuredFile) -> str:
     return f"the gas is changed to {run.then_gas} in the run; give `until_s`, the time [s] of that"
 
 
-def assumed(records: Iterable[Measured]) -> list[str]:
+def assumed(records: Iterable[MeasuredFile]) -> list[str]:
     """Say which numbers, units and columns of records are assumed, and which contradict a name."""
     lines = []
     for run in records:
@@ -237,7 +237,7 @@ def assumed(records: Iterable[Measured]) -> list[str]:
     return lines
 
 
-def said_of_repeats(tests: Iterable[Measured]) -> list[str]:
+def said_of_repeats(tests: Iterable[MeasuredFile]) -> list[str]:
     """Say which files are taken as repeats of one test."""
     lines = []
     for test in (test for test in tests if test.repeats):
@@ -253,7 +253,7 @@ def said_of_repeats(tests: Iterable[Measured]) -> list[str]:
     return lines
 
 
-def _remark(run: Measured, found: Found) -> str:
+def _remark(run: MeasuredFile, found: FoundColumn) -> str:
     """Return a remark on suspect values of a record against temperature, or nothing."""
     frame, look = run.frames.get(found.quantity), found.of.remark
     if frame is None or look is None:
@@ -262,7 +262,7 @@ def _remark(run: Measured, found: Found) -> str:
 
 
 def held_out(
-    part: Part, further: str = "a second radiant flux", beside: Part | None = None
+    part: PartOfPlan, further: str = "a second radiant flux", beside: PartOfPlan | None = None
 ) -> list[str]:
     """Say which experiments test the model, or how to get one that does.
 
@@ -282,7 +282,7 @@ def held_out(
     ]
 
 
-def _known(found: Found, role: str) -> str:
+def _known(found: FoundColumn, role: str) -> str:
     kinds = found.of.scales if role in ("value", "uncertainty") else (role,)
     return ", ".join(unit for kind in kinds for unit in SCALES[kind])
 

@@ -17,17 +17,17 @@ from pyrofit.experiments.base import Stage
 from pyrofit.new_study import draft
 from pyrofit.new_study.copied import without_copies
 from pyrofit.new_study.divisor import USUAL_AREA_M2
-from pyrofit.new_study.draft import Kinetics, Measured
+from pyrofit.new_study.draft import KineticsDraft, MeasuredFile
 from pyrofit.new_study.marks import asked_once
-from pyrofit.new_study.plan import Part, heats, left_out, part_of, titles
-from pyrofit.new_study.repeats import grouped
-from pyrofit.new_study.wide_tables import split
+from pyrofit.new_study.plan import PartOfPlan, heats, part_of, titles, uncompared
+from pyrofit.new_study.repeats import tests_of_names
+from pyrofit.new_study.wide_tables import split_table
 from pyrofit.new_study.words import (
     assumes_area,
     has_back,
     held_out,
+    lines_on_file,
     number_comment,
-    said,
     said_of_repeats,
     signal_lines,
 )
@@ -84,10 +84,12 @@ def init(name: str, files: Files, parent: Path) -> tuple[Path, list[str]]:
     with TemporaryDirectory() as parts:
         single = {kind: _split(kind, paths, Path(parts)) for kind, paths in files.items()}
         records, copied = without_copies(_records(single))
-        tests = grouped(records) or computed()
+        tests = tests_of_names(records) or computed_experiments()
         study = _write(folder, study_text(name, tests), records)
     heated, slabs = (part_of(stage, tests) for stage in STAGES)
-    lines = [line for run in records for line in said(run)] + copied + said_of_repeats(tests)
+    lines = (
+        [line for run in records for line in lines_on_file(run)] + copied + said_of_repeats(tests)
+    )
     lines = [line.replace(parts, f"{folder / 'data'}") for line in lines]
     lines = [*_said_of_tables(files, single), *lines]
     lines += held_out(heated) if heated.held_out else []
@@ -109,16 +111,16 @@ def _said_of_tables(files: Files, single: Files) -> list[str]:
 
 def _split(kind: str, paths: Sequence[Path], folder: Path) -> list[Path]:
     """Return the files of single tests, those of tables that hold several in a folder."""
-    return [part for path in paths for part in split(kind, path, folder)]
+    return [part for path in paths for part in split_table(kind, path, folder)]
 
 
-def _records(files: Files) -> list[Measured]:
-    records = [draft.measured(kind, path) for kind, paths in files.items() for path in paths]
-    draft.check_names(records)
+def _records(files: Files) -> list[MeasuredFile]:
+    records = [draft.read_experiment(kind, path) for kind, paths in files.items() for path in paths]
+    draft.check_names_of_files(records)
     return records
 
 
-def drafted(name: str, files: Files) -> tuple[str, list[Measured], list[str]]:
+def drafted(name: str, files: Files) -> tuple[str, list[MeasuredFile], list[str]]:
     """Return the text of a study for measured files, the records in them, and lines on copies.
 
     Nothing is written. In the text the files are ``data/<record>.csv``.
@@ -132,10 +134,10 @@ def drafted(name: str, files: Files) -> tuple[str, list[Measured], list[str]]:
     """
     _check_name(name)
     records, copied = without_copies(_records(files))
-    return study_text(name, grouped(records)), records, copied
+    return study_text(name, tests_of_names(records)), records, copied
 
 
-def _write(folder: Path, text: str, records: Sequence[Measured]) -> Path:
+def _write(folder: Path, text: str, records: Sequence[MeasuredFile]) -> Path:
     """Make the folder of a study with copies of the measured files, and return the study file."""
     copies = {record.name: _content(record.path) for record in records if record.path}
     try:
@@ -156,21 +158,23 @@ def _write(folder: Path, text: str, records: Sequence[Measured]) -> Path:
     return study
 
 
-def computed() -> list[Measured]:
+def computed_experiments() -> list[MeasuredFile]:
     """Return the experiments whose measurements are computed where there are no files."""
     return [
-        Measured(kind, f"{kind}_{number:g}", None, number)
+        MeasuredFile(kind, f"{kind}_{number:g}", None, number)
         for kind in OF_FILES
         for number in files_of(kind).computed
     ]
 
 
-def study_text(name: str, tests: Sequence[Measured]) -> str:
+def study_text(name: str, tests: Sequence[MeasuredFile]) -> str:
     """Return the study file."""
     synthetic = any(test.path is None for test in tests)
     records = [run for test in tests for run in test.repeats or (test,)]
     measured = [run for run in records if run.path is not None]
-    kinetics = draft.kinetics_of(_inert(measured)) if measured else Kinetics(550.0, 680.0, 0.02)
+    kinetics = (
+        draft.kinetics_limits(_inert(measured)) if measured else KineticsDraft(550.0, 680.0, 0.02)
+    )
     heated, slabs = (part_of(stage, tests) for stage in STAGES)
     shown = [_HEATS[key] for key in heats(heated.fitted)]
     burns = _COMBUSTION in heats(records)
@@ -201,13 +205,13 @@ def study_text(name: str, tests: Sequence[Measured]) -> str:
             imp_words=_words(slabs),
             imp_estimate=estimated,
             alone=alone,
-            left_out=left_out(slabs),
+            left_out=uncompared(slabs),
             tested=held_out(slabs, _RATES) if alone is not None else held_out(slabs, beside=heated),
         )
     )
 
 
-def _of_scheme(kinetics: Kinetics) -> list[str]:
+def _of_scheme(kinetics: KineticsDraft) -> list[str]:
     """Return the parameters of the reactions."""
     if not kinetics.charring:
         return ["T_p", "E_p", *(["y"] if kinetics.known_residue else [])]
@@ -226,7 +230,7 @@ def _virgin(alone: Sequence[str] | None, estimated: Sequence[str]) -> str:
     return f"{{density_kg_m3: 1000, conductivity_W_mK: 0.2, specific_heat_J_kgK: {cp}}}"
 
 
-def _inert(records: Sequence[Measured]) -> Sequence[Measured]:
+def _inert(records: Sequence[MeasuredFile]) -> Sequence[MeasuredFile]:
     """Return the records without those in a gas with oxygen, where there are others."""
     return [run for run in records if not run.in_oxygen] or records
 
@@ -243,7 +247,7 @@ def _environment() -> Environment:
     )
 
 
-def _experiments(runs: Sequence[Measured], composition: str) -> list[str]:
+def _experiments(runs: Sequence[MeasuredFile], composition: str) -> list[str]:
     """Return the lines of each experiment, from the template of its kind.
 
     ``composition`` is that of slabs, where it differs from the material's.
@@ -268,7 +272,7 @@ def _experiments(runs: Sequence[Measured], composition: str) -> list[str]:
     ]
 
 
-def _firsts(runs: Sequence[Measured]) -> dict[str, str]:
+def _firsts(runs: Sequence[MeasuredFile]) -> dict[str, str]:
     """Return the first experiment by what experiments share, where a value is asked for once."""
     slabs = [run for run in runs if run.of.stage == "imp"]
     sharing = {
@@ -282,7 +286,7 @@ def _firsts(runs: Sequence[Measured]) -> dict[str, str]:
     return {name: having[0].name for name, having in sharing.items() if having}
 
 
-def _of_slabs(heated: Part, slabs: Part, shown: Sequence[str]) -> list[str]:
+def _of_slabs(heated: PartOfPlan, slabs: PartOfPlan, shown: Sequence[str]) -> list[str]:
     """Return the parameters that slabs are fitted by.
 
     Heats that heated samples show are taken from these. The specific heat is estimated again: the
@@ -294,7 +298,7 @@ def _of_slabs(heated: Part, slabs: Part, shown: Sequence[str]) -> list[str]:
     return [*first, "rho", "k", "cp", "eps", *rest]
 
 
-def _words(part: Part) -> str:
+def _words(part: PartOfPlan) -> str:
     """Return the kinds of experiment of a stage, and their quantities, in words."""
     return " and ".join(dict.fromkeys(run.of.words for run in part.fitted))
 

@@ -8,7 +8,7 @@ ENDS = 5
 """Points at each end of a record whose median is its level there, at most."""
 
 
-def released(time: FloatArray, mass: FloatArray) -> float:
+def mass_released(time: FloatArray, mass: FloatArray) -> float:
     """Return by how much a record of mass falls from its start to its end [kg/m2].
 
     Medians of the first and the last five points are compared, of fewer in a short record: a load
@@ -21,7 +21,7 @@ def released(time: FloatArray, mass: FloatArray) -> float:
 
     Examples
     --------
-    >>> released(np.arange(12.0), np.array([6.0] + [7.0] * 5 + [0.5] * 6))
+    >>> mass_released(np.arange(12.0), np.array([6.0] + [7.0] * 5 + [0.5] * 6))
     6.5
     """
     points = min(ENDS, max(len(mass) // 3, 1))
@@ -48,5 +48,5 @@ QUANTITY = Quantity(
     drift_share=0.005,
     # A tenth of a gram on a square of 100 mm.
     usual_sd=1e-2,
-    released=released,
+    released=mass_released,
 )

@@ -10,14 +10,14 @@ ALL = "all"
 """Name of the band around those of all cost functions."""
 
 
-def scores(results: Results) -> pd.DataFrame:
+def read_all_scores(results: Results) -> pd.DataFrame:
     """Return every end of every optimiser under every measure, a row each."""
     words = ("cost_function", "found_by", "best", "place", "measure", "value")
     columns = {**dict.fromkeys(words, object), "number": float}
     return read_csv(results.comparison("scores.csv"), columns)
 
 
-def bands(study: Study, results: Results) -> pd.DataFrame:
+def read_bands_of_sets(study: Study, results: Results) -> pd.DataFrame:
     """Return the bands of each cost function, and `ALL` around them, SI units."""
     rows = [(cost,) for cost in study.imp.costs]
     numbers = ("time_s", "measured", "best", "low", "high", "sets")

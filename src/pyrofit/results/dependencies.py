@@ -35,7 +35,7 @@ def _values(study: Study) -> Slice:
     return {n: p.model_dump(include={"unit", "value"}) for n, p in study.parameters.items()}
 
 
-def known(study: Study, names: Iterable[str]) -> Slice:
+def known_slice(study: Study, names: Iterable[str]) -> Slice:
     """Known values of some parameters; no key where there are none."""
     found = _known_values(study, names)
     return {"known": found} if found else {}
@@ -57,7 +57,7 @@ def _measured(study: Study, name: str) -> Slice:
     return study.experiments[name].model_dump(exclude={"title", "gas"}) | _files(study, name)
 
 
-def measured(study: Study) -> Slice:
+def measured_slice(study: Study) -> Slice:
     """Return all experiments, as they are simulated and compared with regard to their noise."""
     return {name: _measured(study, name) for name in study.experiments}
 
@@ -70,7 +70,7 @@ def _files(study: Study, name: str) -> Slice:
     return {"program_files": file_digests(experiment.program)}
 
 
-def trial(study: Study) -> Slice:
+def trial_slice(study: Study) -> Slice:
     """All inputs of the external programs, and the planned searches."""
     return {
         "experiments": {n: _experiment(study, n) for n in externals(study)},
@@ -80,7 +80,7 @@ def trial(study: Study) -> Slice:
     }
 
 
-def data(study: Study) -> Slice:
+def data_slice(study: Study) -> Slice:
     """Signals as they are read; with synthetic ones, all that makes them."""
     of_the_model = {"delay_s", "offset", "timing_s"}
     signals = {
@@ -116,7 +116,7 @@ def kinetics(study: Study) -> Slice:
         "stage": stage.model_dump(exclude={"cost"}),
         "accuracy": study.accuracy.tga_step_K,
         "seed": study.seed,
-        **known(study, stage.estimate),
+        **known_slice(study, stage.estimate),
     }
 
 
@@ -124,10 +124,10 @@ OF_SCHEMES = "volatile", "tga_lag"
 """Effects that reaction schemes may have."""
 
 
-def isoconversional(study: Study) -> Slice:
+def isoconversional_slice(study: Study) -> Slice:
     """All masses of heated samples, the model that is fitted to them, and schemes beside it."""
     heated = {n: _measured(study, n) for n in study.of_stage("kinetics")}
-    fit = identify(study) if study.kinetics is None else kinetics(study)
+    fit = identify_slice(study) if study.kinetics is None else kinetics(study)
     of_schemes = code_of(study, more=OF_SCHEMES)["effects"]
     return {"heated": heated, "fit": fit, "schemes": of_schemes}
 
@@ -150,11 +150,11 @@ def imp(study: Study, cost: str, optimiser: str) -> Slice:
         "budget": getattr(stage, optimiser).model_dump(),
         "accuracy": study.accuracy.model_dump(),
         "seed": study.seed,
-        **known(study, stage.estimate),
+        **known_slice(study, stage.estimate),
     }
 
 
-def identify(study: Study) -> Slice:
+def identify_slice(study: Study) -> Slice:
     """Channels, parameters and material of the analysis of identifiability."""
     stage = study.imp
     used = sorted({c.experiment for c in stage.channels})
@@ -170,11 +170,11 @@ def identify(study: Study) -> Slice:
         "code": code_of(study),
         "costs": list(stage.costs),
         "accuracy": study.accuracy.model_dump(),
-        **known(study, stage.estimate),
+        **known_slice(study, stage.estimate),
     }
 
 
-def diagnose(study: Study) -> Slice:
+def diagnose_slice(study: Study) -> Slice:
     """Channels, parameters, prior knowledge, material and candidates of the diagnosis."""
     stage = study.diagnosis
     fitted, held_out = calibration_channels(study), held_out_channels(study)
@@ -200,7 +200,7 @@ def diagnose(study: Study) -> Slice:
     }
 
 
-def validation(study: Study) -> Slice:
+def validation_slice(study: Study) -> Slice:
     """Predicted experiments, and the material they are predicted with."""
     return {
         "experiments": {n: _experiment(study, n) for n in study.of_stage("imp")},
@@ -214,16 +214,16 @@ def validation(study: Study) -> Slice:
     }
 
 
-def compare(study: Study) -> Slice:
+def compare_slice(study: Study) -> Slice:
     """Costs, predicted experiments and material, by which all sets are judged."""
     return {
         "terms": {n: [t.model_dump() for t in terms] for n, terms in study.imp.costs.items()},
         "measured": {n: _experiment(study, n) for n in study.experiments},
         "limits": {n: study.parameters[n].bounds_si for n in study.imp.estimate},
         "seed": study.seed,
-        **known(study, study.imp.estimate),
-        **validation(study),
-        **collect(study),
+        **known_slice(study, study.imp.estimate),
+        **validation_slice(study),
+        **collect_slice(study),
     }
 
 
@@ -232,6 +232,6 @@ def presentation(study: Study) -> Slice:
     return {**study.model_dump(), "code": code(study)}
 
 
-def collect(study: Study) -> Slice:
+def collect_slice(study: Study) -> Slice:
     """Which repetitions there are."""
     return {"costs": list(study.imp.costs), "repetitions": study.imp.repetitions}

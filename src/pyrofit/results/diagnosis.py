@@ -36,7 +36,7 @@ def read(study: Study, results: Results) -> Diagnosis:
     return found
 
 
-def curves(study: Study, results: Results) -> pd.DataFrame:
+def read_curves(study: Study, results: Results) -> pd.DataFrame:
     """Return measured curves, those of the base and those with the named effects, SI units."""
     channels = [(c.experiment, c.signal) for c in read(study, results).noise]
     numbers = ("time_s", "measured", "sd", "before")

@@ -44,7 +44,7 @@ class Channel(Record):
     chi2: float = Field(description="chi-square at the optimum")
 
 
-class Noise(Record):
+class StageNoise(Record):
     """The noise of all channels of a stage, and chi-square at the optimum."""
 
     channels: list[Channel] = Field(min_length=1, description="the channels")
@@ -58,7 +58,7 @@ class Identified(NamedTuple):
 
     estimates: dict[str, pd.DataFrame]
     correlations: dict[str, pd.DataFrame]
-    noise: dict[str, Noise]
+    noise: dict[str, StageNoise]
     goodness: dict[str, Goodness]
     sets: pd.DataFrame
     """Sets of the optimisers: distance of each parameter from the optimum [sd], chi-square."""
@@ -76,7 +76,7 @@ def read(study: Study, results: Results) -> Identified:
     return Identified(
         estimates={stage: estimates(study, results, stage) for stage in stages},
         correlations={stage: matrix_of(study, results, stage) for stage in stages},
-        noise={stage: noise(results, stage) for stage in stages},
+        noise={stage: read_noise(results, stage) for stage in stages},
         goodness={stage: goodness.read(results, stage) for stage in stages},
         sets=_sets(study, results),
     )
@@ -107,14 +107,14 @@ def matrix_of(study: Study, results: Results, stage: str = "imp") -> pd.DataFram
     return frame.set_index("parameter").loc[names, names]
 
 
-def write_noise(results: Results, stage: str, found: Noise) -> None:
+def write_noise(results: Results, stage: str, found: StageNoise) -> None:
     """Write the noise of a stage's channels."""
     write_record(results.identification("noise.json", stage), found)
 
 
-def noise(results: Results, stage: str = "imp") -> Noise:
+def read_noise(results: Results, stage: str = "imp") -> StageNoise:
     """Return the noise of the channels, and chi-square at the optimum."""
-    return read_record(results.identification("noise.json", stage), Noise)
+    return read_record(results.identification("noise.json", stage), StageNoise)
 
 
 def _sets(study: Study, results: Results) -> pd.DataFrame:

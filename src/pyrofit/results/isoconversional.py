@@ -40,7 +40,7 @@ def energies(results: Results) -> pd.DataFrame:
     return read_csv(results.isoconversional(ENERGIES), {"conversion": float})
 
 
-def findings(results: Results) -> list[str]:
+def read_findings(results: Results) -> list[str]:
     """Return what they show, in sentences; none where the study has no such analysis."""
     return found.findings if (found := _read(results)) else []
 

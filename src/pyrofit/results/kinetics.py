@@ -25,7 +25,7 @@ class Searched(Record):
     calls: int = Field(description="model calls")
 
 
-class Fit(Record):
+class KineticsFit(Record):
     """The searches of the kinetics; the estimates are made from their ends."""
 
     cost: float = Field(description="lowest cost of all searches")
@@ -36,7 +36,7 @@ class Fit(Record):
     least_squares: list[End] = Field(description="least squares by start, best first")
 
 
-class Reaction(Record):
+class ReactionOfSet(Record):
     """The kinetics of a reaction in one set."""
 
     A_1_s: float = Field(description="pre-exponential factor [1/s]")
@@ -45,7 +45,7 @@ class Reaction(Record):
     mass_fraction: float = Field(description="virgin mass fraction of the reactant [-]")
 
 
-Sets = dict[str, dict[str, Reaction]]
+Sets = dict[str, dict[str, ReactionOfSet]]
 """Kinetics by set and reaction."""
 
 
@@ -67,7 +67,7 @@ def given_to_imp(study: Study, results: Results) -> dict[str, float]:
     return {**study.fixed_values(), **fitted}
 
 
-def fit(study: Study, results: Results) -> Fit:
+def read_fit(study: Study, results: Results) -> KineticsFit:
     """Return the searches of the kinetics.
 
     Raises
@@ -76,16 +76,16 @@ def fit(study: Study, results: Results) -> Fit:
         The result is missing or broken.
     """
     path = results.kinetics("fit.json")
-    found = read_record(path, Fit)
+    found = read_record(path, KineticsFit)
     names = study.kinetics.estimate if study.kinetics else ()
     check_names(path, "parameters", found.parameters, names)
     check_ends(path, "least_squares", found.least_squares, names)
     return found
 
 
-def ends(study: Study, results: Results) -> list[dict[str, float]]:
+def read_ends(study: Study, results: Results) -> list[dict[str, float]]:
     """Return the set of the lowest cost and the ends of least squares beside it, SI units."""
-    found = fit(study, results)
+    found = read_fit(study, results)
     return [found.parameters, *(end.parameters for end in found.least_squares)]
 
 
@@ -97,7 +97,7 @@ def write_sets(results: Results, found: Sets) -> None:
     write_json(results.kinetics("sets.json"), content)
 
 
-def sets(study: Study, results: Results) -> Sets:
+def kinetic_sets(study: Study, results: Results) -> Sets:
     """Return the kinetics of all sets.
 
     Raises
@@ -113,7 +113,7 @@ def sets(study: Study, results: Results) -> Sets:
     return found
 
 
-def curves(study: Study, results: Results, experiments: Sequence[str]) -> pd.DataFrame:
+def read_kinetic_curves(study: Study, results: Results, experiments: Sequence[str]) -> pd.DataFrame:
     """Return the curves of every set at the TGA experiments."""
     return read_csv(
         results.kinetics("curves.csv"),
@@ -122,7 +122,7 @@ def curves(study: Study, results: Results, experiments: Sequence[str]) -> pd.Dat
     )
 
 
-def scores(study: Study, results: Results, experiments: Sequence[str]) -> pd.DataFrame:
+def read_kinetic_scores(study: Study, results: Results, experiments: Sequence[str]) -> pd.DataFrame:
     """Return the scores of every set at the TGA experiments."""
     return read_csv(
         results.kinetics("scores.csv"),
@@ -137,7 +137,7 @@ def heat_curves(study: Study, results: Results) -> pd.DataFrame:
     return _of_heats(study, results, "heats.csv", columns)
 
 
-def heat_scores(study: Study, results: Results) -> pd.DataFrame:
+def read_heat_scores(study: Study, results: Results) -> pd.DataFrame:
     """Return the scores of every set at these signals."""
     return _of_heats(study, results, "heat_scores.csv", {"rmse": float})
 

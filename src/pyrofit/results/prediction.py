@@ -10,7 +10,7 @@ from pyrofit.results.files import Results, read_csv
 from pyrofit.results.needed import Keys
 
 
-def curves(study: Study, results: Results, labels: Sequence[str]) -> pd.DataFrame:
+def read_predicted_curves(study: Study, results: Results, labels: Sequence[str]) -> pd.DataFrame:
     """Return the curves of the labelled sets at the predicted experiments."""
     return read_csv(
         results.validation("curves.csv"),
@@ -19,7 +19,7 @@ def curves(study: Study, results: Results, labels: Sequence[str]) -> pd.DataFram
     )
 
 
-def scores(study: Study, results: Results, labels: Sequence[str]) -> pd.DataFrame:
+def read_scores(study: Study, results: Results, labels: Sequence[str]) -> pd.DataFrame:
     """Return the scores of the labelled sets at the predicted experiments."""
     return read_csv(
         results.validation("scores.csv"),

@@ -56,7 +56,7 @@ def measured(study: Study, results: Results) -> Measured:
     DataError
         The measurements have not been read.
     """
-    about = summary(study, results)
+    about = read_summary(study, results)
     keys = [(name, signal) for name, signals in about.items() for signal in signals]
     return Measured(about, {(n, s): series(study, results, n, s) for n, s in keys})
 
@@ -79,7 +79,7 @@ def load(study: Study, results: Results) -> dict[tuple[str, str], pd.DataFrame]:
     }
 
 
-def summary(study: Study, results: Results) -> About:
+def read_summary(study: Study, results: Results) -> About:
     """Return the records of the series, by experiment and signal.
 
     Raises

@@ -51,7 +51,7 @@ class Repetition(Record):
     generations: int = Field(description="generations of the search")
 
 
-class Searched(NamedTuple):
+class AllSearches(NamedTuple):
     """Ends of all searches, read at once."""
 
     repetitions: pd.DataFrame
@@ -60,7 +60,7 @@ class Searched(NamedTuple):
     """By cost function and optimiser, the ends from every start, best first."""
 
 
-def read(study: Study, results: Results, optimisers: Iterable[str]) -> Searched:
+def read(study: Study, results: Results, optimisers: Iterable[str]) -> AllSearches:
     """Return the ends of all repetitions of SCE-UA and of all starts of the other optimisers.
 
     Raises
@@ -69,9 +69,9 @@ def read(study: Study, results: Results, optimisers: Iterable[str]) -> Searched:
         A result is missing or broken.
     """
     keys = list(optimisers)
-    return Searched(
-        summary(study, results),
-        {c: {key: starts(study, results, c, key) for key in keys} for c in study.imp.costs},
+    return AllSearches(
+        best_of_repetitions(study, results),
+        {c: {key: read_starts(study, results, c, key) for key in keys} for c in study.imp.costs},
     )
 
 
@@ -95,7 +95,7 @@ def history(study: Study, results: Results, cost: str, number: int) -> pd.DataFr
     return read_csv(results.repetition(cost, number, ".csv.gz"), dict.fromkeys(numbers, float))
 
 
-def summary(study: Study, results: Results) -> pd.DataFrame:
+def best_of_repetitions(study: Study, results: Results) -> pd.DataFrame:
     """Return the best set of every repetition."""
     numbers = ("cost", "cost_refined", "calls", "failed_calls", *study.imp.estimate)
     return read_csv(
@@ -115,7 +115,7 @@ def running_minima(study: Study, results: Results) -> pd.DataFrame:
     )
 
 
-def starts(study: Study, results: Results, cost: str, optimiser: str) -> list[End]:
+def read_starts(study: Study, results: Results, cost: str, optimiser: str) -> list[End]:
     """Return the ends that an optimiser reached from every start on one cost, best first."""
     path = results.starts(cost, optimiser)
     found = read_record(path, Starts).starts

@@ -60,7 +60,7 @@ def frozen_study(given: dict[str, Any], source: str) -> Study:
 def _unchanged(study: Study, source: str) -> Study:
     path = Path("results") / study.name / "study.json"
     kept, now = read_mapping(path), study.model_dump(mode="json")
-    changed = list(differences(kept, json.loads(json.dumps(now))))
+    changed = list(changed_places(kept, json.loads(json.dumps(now))))
     if changed:
         more = "" if len(changed) <= MOST_NAMED else f" and {len(changed) - MOST_NAMED} more"
         raise StudyError(
@@ -70,14 +70,17 @@ def _unchanged(study: Study, source: str) -> Study:
     return study
 
 
-def differences(one: Any, other: Any, place: str = "") -> Iterator[str]:
+def changed_places(one: Any, other: Any, place: str = "") -> Iterator[str]:
     """Yield the places of all values in which two studies differ.
 
-    >>> list(differences({"seed": 7, "imp": {"costs": [1, 2]}}, {"seed": 8, "imp": {"costs": [1]}}))
+    >>> one, other = {"seed": 7, "imp": {"costs": [1, 2]}}, {"seed": 8, "imp": {"costs": [1]}}
+    >>> list(changed_places(one, other))
     ['seed', 'imp.costs']
     """
     if isinstance(one, dict) and isinstance(other, dict):
         for key in dict.fromkeys([*one, *other]):
-            yield from differences(one.get(key), other.get(key), f"{place}.{key}".removeprefix("."))
+            yield from changed_places(
+                one.get(key), other.get(key), f"{place}.{key}".removeprefix(".")
+            )
     elif one != other:
         yield place

@@ -20,7 +20,7 @@ DEFAULT = "config/twin.yaml"
 """The study that runs if none is given."""
 
 
-class Given(NamedTuple):
+class GivenStudy(NamedTuple):
     """A study as it is given.
 
     Parameters
@@ -90,7 +90,7 @@ def _config_files(words: Sequence[str]) -> list[str]:
     return files
 
 
-def from_files(files: Sequence[str], changes: Mapping[str, Any]) -> Given:
+def study_of_files(files: Sequence[str], changes: Mapping[str, Any]) -> GivenStudy:
     """Return the study of one or more files, the later ones and ``changes`` on top.
 
     The files are read anew: to Snakemake a key may stand twice, and 1e-3 is text.
@@ -109,10 +109,10 @@ def from_files(files: Sequence[str], changes: Mapping[str, Any]) -> Given:
     for place in places:
         update_config(keys, read_mapping(Path(place)))
     update_config(keys, dict(changes))
-    return Given(keys, places[0], places)
+    return GivenStudy(keys, places[0], places)
 
 
-def from_workflow(files: Sequence[str], config: Mapping[str, Any]) -> Given:
+def from_workflow(files: Sequence[str], config: Mapping[str, Any]) -> GivenStudy:
     """Return the study that another workflow gives.
 
     Parameters
@@ -128,10 +128,10 @@ def from_workflow(files: Sequence[str], config: Mapping[str, Any]) -> Given:
         There is no study, or its file cannot be read.
     """
     if FILE in config:
-        return from_files([config[FILE]], {k: v for k, v in config.items() if k != FILE})
+        return study_of_files([config[FILE]], {k: v for k, v in config.items() if k != FILE})
     if not config:
         raise StudyError(
             f"no study is given; write in the module: config: {{'{FILE}': 'mywood/mywood.yaml'}}"
         )
     places = [os.path.relpath(file) for file in files]
-    return Given(as_read(config), places[0] if places else "config.yaml", places)
+    return GivenStudy(as_read(config), places[0] if places else "config.yaml", places)

@@ -20,7 +20,9 @@ MANY = 2000
 """Repetitions whose plan takes long enough to be announced."""
 
 
-def shares(study: Study, wanted: object = None, cores: int | None = None) -> list[list[int]]:
+def jobs_of_repetitions(
+    study: Study, wanted: object = None, cores: int | None = None
+) -> list[list[int]]:
     """Return the repetitions of each job of a cost function.
 
     By default a cost has as many jobs as are needed to give every core one, by eights, and at most
@@ -45,13 +47,15 @@ def shares(study: Study, wanted: object = None, cores: int | None = None) -> lis
     """
     everything = list(range(study.imp.repetitions))
     if wanted is not None:
-        return parts(everything, _whole(wanted))
+        return parts_of_repetitions(everything, _whole(wanted))
     if at_once(study) == 1:
-        return parts(everything, 1)
+        return parts_of_repetitions(everything, 1)
     each = _by_default(len(everything), len(study.imp.costs), cores)
     full = len(everything) - len(everything) % each
     rest = everything[full:]
-    return parts(everything[:full], each) + parts(rest, each if len(rest) > FEW else 1)
+    return parts_of_repetitions(everything[:full], each) + parts_of_repetitions(
+        rest, each if len(rest) > FEW else 1
+    )
 
 
 def _by_default(repetitions: int, costs: int, cores: int | None) -> int:
@@ -73,10 +77,10 @@ def at_once(study: Study) -> int:
     return 1 if externals(study) else SIDE_BY_SIDE
 
 
-def parts(repetitions: list[int], size: int) -> list[list[int]]:
+def parts_of_repetitions(repetitions: list[int], size: int) -> list[list[int]]:
     """Return repetitions in parts of a size, the last one shorter.
 
-    >>> parts([0, 1, 2, 3, 4], 2)
+    >>> parts_of_repetitions([0, 1, 2, 3, 4], 2)
     [[0, 1], [2, 3], [4]]
     """
     return [repetitions[n : n + size] for n in range(0, len(repetitions), size)]

@@ -44,7 +44,7 @@ About = Mapping[str, Any]
 """What Snakemake tells of an event of a run."""
 
 
-class Step(NamedTuple):
+class StartedStep(NamedTuple):
     """A step that was started."""
 
     number: int
@@ -66,8 +66,8 @@ class Terminal(LogHandlerBase):
         self.say: Callable[[str], None] = lambda line: print(line, file=sys.stderr, flush=True)
         self.clock: Callable[[], float] = time.monotonic
         self._total = 0
-        self._steps: dict[int, Step] = {}
-        self._failed: list[tuple[Step, Sequence[str]]] = []
+        self._steps: dict[int, StartedStep] = {}
+        self._failed: list[tuple[StartedStep, Sequence[str]]] = []
         os.environ[BY_RUN] = "1"
 
     def emit(self, record: LogRecord) -> None:
@@ -109,7 +109,7 @@ class Terminal(LogHandlerBase):
             return
         before = self._steps.get(about["jobid"])
         number = before.number if before else len(self._steps) + 1
-        step = self._steps[about["jobid"]] = Step(number, title, self.clock())
+        step = self._steps[about["jobid"]] = StartedStep(number, title, self.clock())
         self.say(f"{self._place(step)}  {title}{', once more' if before else ''}")
 
     def _job_finished(self, about: About) -> None:
@@ -127,7 +127,7 @@ class Terminal(LogHandlerBase):
             self._failed.append((step, about["log"]))
             self.say(f"{self._place(step)}  failed")
 
-    def _forget(self, step: Step) -> None:
+    def _forget(self, step: StartedStep) -> None:
         """Forget that an earlier attempt at a step has failed."""
         self._failed = [failed for failed in self._failed if failed[0].number != step.number]
 
@@ -143,7 +143,7 @@ class Terminal(LogHandlerBase):
             self.say(f"\n{len(self._failed) - MOST_TOLD} more failed.")
         self.say(SAME_COMMAND)
 
-    def _place(self, step: Step) -> str:
+    def _place(self, step: StartedStep) -> str:
         return f"{step.number:>{len(str(self._total))}}/{self._total}"
 
 

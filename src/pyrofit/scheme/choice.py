@@ -14,11 +14,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from pyrofit.logs import Tell
-from pyrofit.scheme.fit import FittedScheme, Setting
-from pyrofit.scheme.prediction import Predicted, leave_rates_out, predict
+from pyrofit.scheme.fit import FittedScheme, SchemeSetting
+from pyrofit.scheme.prediction import PredictedRecord, leave_rates_out, predict_records
 from pyrofit.scheme.records import rates_of
-from pyrofit.scheme.search import fit_own, search
-from pyrofit.scheme.settings import Settings
+from pyrofit.scheme.search import fit_own, search_schemes
+from pyrofit.scheme.settings import SchemeSettings
 from pyrofit.seeds import seed_for
 
 
@@ -27,7 +27,7 @@ class Candidate:
     """A fitted scheme, and its predictions of heating rates left out; none if it is hopeless."""
 
     fitted: FittedScheme
-    left_out: tuple[Predicted, ...]
+    left_out: tuple[PredictedRecord, ...]
 
     @property
     def log_score(self) -> float:
@@ -61,10 +61,10 @@ class Choice:
     chosen: Candidate
     best: Candidate
     margins: dict[str, float]
-    held_out: dict[str, tuple[Predicted, ...]]
+    held_out: dict[str, tuple[PredictedRecord, ...]]
 
 
-def choose_scheme(setting: Setting, tell: Tell) -> Choice:
+def choose_scheme(setting: SchemeSetting, tell: Tell) -> Choice:
     """Fit schemes, let them predict, and choose.
 
     Raises
@@ -72,7 +72,7 @@ def choose_scheme(setting: Setting, tell: Tell) -> Choice:
     DataError
         No scheme can be simulated within its limits.
     """
-    fitted = search(setting, tell)
+    fitted = search_schemes(setting, tell)
     hopeless = fitted[0].bic + setting.settings.hopeless_bic
     candidates = [
         _candidate(setting, f, tell) if f.bic <= hopeless else Candidate(f, ()) for f in fitted
@@ -81,12 +81,12 @@ def choose_scheme(setting: Setting, tell: Tell) -> Choice:
     own = _candidate(setting, fit_own(setting), tell)
     others = [r for r in setting.records if not r.calibrated]
     held_out = {
-        c.fitted.name: tuple(predict(setting, c.fitted, others)) for c in [*candidates, own]
+        c.fitted.name: tuple(predict_records(setting, c.fitted, others)) for c in [*candidates, own]
     }
     return Choice(tuple(candidates), own, chosen, best, margins, held_out)
 
 
-def _candidate(setting: Setting, fitted: FittedScheme, tell: Tell) -> Candidate:
+def _candidate(setting: SchemeSetting, fitted: FittedScheme, tell: Tell) -> Candidate:
     seed = seed_for(setting.study.seed, "left out", fitted.name)
     made = Candidate(fitted, tuple(leave_rates_out(setting, fitted, seed)))
     tell(f"{fitted.posed.words}: log score {made.log_score:.1f} of rates left out")
@@ -94,7 +94,7 @@ def _candidate(setting: Setting, fitted: FittedScheme, tell: Tell) -> Candidate:
 
 
 def choose(
-    candidates: Sequence[Candidate], settings: Settings
+    candidates: Sequence[Candidate], settings: SchemeSettings
 ) -> tuple[Candidate, Candidate, dict[str, float]]:
     """Return the candidate that predicts best, the chosen one, and the margins by scheme."""
     able = [c for c in candidates if c.left_out]
@@ -109,7 +109,7 @@ def choose(
     return best, chosen, margins
 
 
-def margin(best: Candidate, other: Candidate, settings: Settings) -> float:
+def margin(best: Candidate, other: Candidate, settings: SchemeSettings) -> float:
     """Return the log score that a candidate may lose to the best one."""
     one, two = best.by_rate(), other.by_rate()
     lost = np.array([one[rate] - two[rate] for rate in one])

@@ -11,7 +11,7 @@ from pyrofit.scheme.masses import masses_of
 Keys = dict[str, Any]
 
 
-def extended_keys(
+def scheme_keys(
     study: Study, chosen: FittedScheme, signals: Mapping[tuple[str, str], Keys]
 ) -> Keys:
     """Return a study's keys with the chosen scheme at its fitted values.

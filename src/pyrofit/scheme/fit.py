@@ -15,10 +15,10 @@ from pyrofit.estimate.prior import NormalPrior, prior_of
 from pyrofit.estimate.problem import Problem
 from pyrofit.estimate.targets import Measurements
 from pyrofit.numerics import functions, linear
-from pyrofit.scheme.noise import Scatter, deviance, most_likely
+from pyrofit.scheme.noise import RecordScatter, deviance, most_likely
 from pyrofit.scheme.posed import Posed
-from pyrofit.scheme.records import Record
-from pyrofit.scheme.settings import Settings
+from pyrofit.scheme.records import MassRecord
+from pyrofit.scheme.settings import SchemeSettings
 from pyrofit.solver.arrays import FloatArray
 
 LITTLE = 0.5
@@ -26,24 +26,24 @@ LITTLE = 0.5
 
 
 @dataclass(frozen=True, eq=False)
-class Setting:
+class SchemeSetting:
     """Data and settings that all fits of a study share."""
 
     study: Study
     measurements: Measurements
-    records: tuple[Record, ...]
-    settings: Settings
+    records: tuple[MassRecord, ...]
+    settings: SchemeSettings
 
     @property
-    def calibrated(self) -> tuple[Record, ...]:
+    def calibrated(self) -> tuple[MassRecord, ...]:
         """Records that schemes are fitted to."""
         return tuple(r for r in self.records if r.calibrated)
 
     @cached_property
-    def _scatters(self) -> dict[str, Scatter]:
-        return {r.experiment: Scatter(r, self.settings) for r in self.records}
+    def _scatters(self) -> dict[str, RecordScatter]:
+        return {r.experiment: RecordScatter(r, self.settings) for r in self.records}
 
-    def scatters(self, records: Sequence[Record]) -> tuple[Scatter, ...]:
+    def scatters(self, records: Sequence[MassRecord]) -> tuple[RecordScatter, ...]:
         """Return the scatter of some records."""
         return tuple(self._scatters[r.experiment] for r in records)
 
@@ -69,7 +69,7 @@ class FittedScheme:
     """
 
     posed: Posed
-    records: tuple[Record, ...]
+    records: tuple[MassRecord, ...]
     likelihood: Likelihood
     x: FloatArray
     size: float
@@ -106,7 +106,7 @@ class FittedScheme:
 
 
 def problem_of(
-    setting: Setting, posed: Posed, records: Sequence[Record]
+    setting: SchemeSetting, posed: Posed, records: Sequence[MassRecord]
 ) -> tuple[Problem, NormalPrior]:
     """Return the problem of a scheme at some records, and the known values of its parameters."""
     study, names = posed.study, posed.names
@@ -124,9 +124,9 @@ def problem_of(
 
 
 def fit_posed(
-    setting: Setting,
+    setting: SchemeSetting,
     posed: Posed,
-    records: Sequence[Record],
+    records: Sequence[MassRecord],
     starts: Sequence[Mapping[str, float]],
     rng: np.random.Generator,
     size: float | None = None,
@@ -176,7 +176,7 @@ def fit_posed(
 
 
 def _likelihood(
-    problem: Problem, scatters: Sequence[Scatter], size: float, prior: NormalPrior
+    problem: Problem, scatters: Sequence[RecordScatter], size: float, prior: NormalPrior
 ) -> Likelihood:
     return Likelihood(problem, tuple(s.noise(size) for s in scatters), prior)
 

@@ -20,8 +20,8 @@ import numpy as np
 from pyrofit.estimate.correlation import Correlation
 from pyrofit.estimate.noise import NoiseModel
 from pyrofit.numerics import functions, linear
-from pyrofit.scheme.records import Record
-from pyrofit.scheme.settings import Settings
+from pyrofit.scheme.records import MassRecord
+from pyrofit.scheme.settings import SchemeSettings
 from pyrofit.solver.arrays import FloatArray
 
 LOG_2_PI = math.log(2.0 * math.pi)
@@ -30,7 +30,7 @@ LEAST = 0.05
 
 
 @dataclass(frozen=True, eq=False)
-class Noise(NoiseModel):
+class RecordNoise(NoiseModel):
     """Noise of a whole covariance C: whitening is the product with ``inverse``, L^-1 of C = L L^T.
 
     ``inverse`` has the shape (n, n).
@@ -44,11 +44,11 @@ class Noise(NoiseModel):
 
 
 @dataclass(frozen=True, eq=False)
-class Scatter:
+class RecordScatter:
     """Covariance of the points of a record; see the head of the module."""
 
-    record: Record
-    settings: Settings
+    record: MassRecord
+    settings: SchemeSettings
 
     @cached_property
     def _parts(self) -> tuple[FloatArray, FloatArray]:
@@ -66,10 +66,10 @@ class Scatter:
         lasting = drift + np.outer(moved, moved) + size**2 * unit
         return np.asarray(lasting + self.settings.scatter**2 * np.eye(self.record.mass.size))
 
-    def noise(self, size: float) -> "Noise":
+    def noise(self, size: float) -> "RecordNoise":
         """Return the noise of a channel that has this covariance."""
         sd = np.full(self.record.mass.size, self.settings.scatter)
-        return Noise(sd, Correlation(), origin="repeats", inverse=self.factors[size][0])
+        return RecordNoise(sd, Correlation(), origin="repeats", inverse=self.factors[size][0])
 
     @cached_property
     def factors(self) -> dict[float, tuple[FloatArray, float]]:
@@ -77,7 +77,9 @@ class Scatter:
         return {size: _factor(self.covariance(size)) for size in self.settings.discrepancies}
 
 
-def deviance(scatters: Sequence[Scatter], residuals: Sequence[FloatArray], size: float) -> float:
+def deviance(
+    scatters: Sequence[RecordScatter], residuals: Sequence[FloatArray], size: float
+) -> float:
     """Return -2 log density of residuals, one array per record."""
     total = 0.0
     for scatter, r in zip(scatters, residuals, strict=True):
@@ -87,16 +89,16 @@ def deviance(scatters: Sequence[Scatter], residuals: Sequence[FloatArray], size:
     return total
 
 
-def most_likely(scatters: Sequence[Scatter], residuals: Sequence[FloatArray]) -> float:
+def most_likely(scatters: Sequence[RecordScatter], residuals: Sequence[FloatArray]) -> float:
     """Return the size of the discrepancy, among those of the settings, of least deviance."""
     known = scatters[0].settings.discrepancies
     return min(known, key=lambda size: deviance(scatters, residuals, size))
 
 
-def log_density(residual: FloatArray, covariance: FloatArray) -> float:
+def log_density_of_noise(residual: FloatArray, covariance: FloatArray) -> float:
     """Return the log density of a normal distribution at a residual, shapes (n,) and (n, n).
 
-    >>> round(log_density(np.zeros(1), np.eye(1)), 4)
+    >>> round(log_density_of_noise(np.zeros(1), np.eye(1)), 4)
     -0.9189
     """
     inverse, log_det = _factor(covariance)

@@ -17,9 +17,9 @@ from pyrofit.model.parameters import Parameter
 from pyrofit.scheme.arrangements import ARRANGEMENTS
 from pyrofit.scheme.arrangements.base import PREFIX, REFERENCE_RATE_1_S, Limits, Template
 from pyrofit.scheme.masses import masses_of
-from pyrofit.scheme.records import Record
+from pyrofit.scheme.records import MassRecord
 from pyrofit.scheme.schemes import Scheme
-from pyrofit.scheme.settings import Settings
+from pyrofit.scheme.settings import SchemeSettings
 
 OWN = "study"
 """Identifier of the scheme that the study describes."""
@@ -102,7 +102,9 @@ def _largest(study: Study, number: float | str) -> float:
     return max(ends_of(study, number))
 
 
-def pose(study: Study, scheme: Scheme, records: Sequence[Record], settings: Settings) -> Posed:
+def pose_scheme(
+    study: Study, scheme: Scheme, records: Sequence[MassRecord], settings: SchemeSettings
+) -> Posed:
     """Return a scheme as it is fitted to records of a study."""
     template = template_of(study)
     limits = _limits(scheme, template, [r for r in records if r.calibrated])
@@ -126,13 +128,13 @@ def pose(study: Study, scheme: Scheme, records: Sequence[Record], settings: Sett
     return Posed(scheme, made, _with_needed(made, (*named, *free, *nuisances), records), nuisances)
 
 
-def own(study: Study, records: Sequence[Record]) -> Posed:
+def own(study: Study, records: Sequence[MassRecord]) -> Posed:
     """Return the study's own scheme as it is fitted: with the parameters of its kinetics."""
     return Posed(None, study, _with_needed(study, masses_of(study).estimate, records), ())
 
 
 def _with_needed(
-    study: Study, names: tuple[str, ...], records: Sequence[Record]
+    study: Study, names: tuple[str, ...], records: Sequence[MassRecord]
 ) -> tuple[str, ...]:
     """Return names with those of further parameters that records use and that have no value."""
     used = parameters_of_heated(study.material)
@@ -140,7 +142,7 @@ def _with_needed(
     return (*names, *sorted(used - set(names) - set(study.fixed_values())))
 
 
-def _limits(scheme: Scheme, template: Template, records: Sequence[Record]) -> dict[str, Limits]:
+def _limits(scheme: Scheme, template: Template, records: Sequence[MassRecord]) -> dict[str, Limits]:
     """Return the limits of the scheme's parameters; temperatures are those of the records."""
     first = min(r.temperature_at(0.9) for r in records) - 80.0
     last = max(r.temperature_at(0.1) for r in records) + 40.0
@@ -186,7 +188,7 @@ def _reaction(template: Template, i: int, scheme: Scheme) -> Reaction:
 
 
 def _of_records(
-    study: Study, scheme: Scheme, records: Sequence[Record], settings: Settings
+    study: Study, scheme: Scheme, records: Sequence[MassRecord], settings: SchemeSettings
 ) -> tuple[dict[str, Limits], dict[str, str]]:
     """Return limits of lag and offsets, and the offset's parameter by laboratory."""
     limits: dict[str, Limits] = {}
@@ -206,7 +208,9 @@ def _of_records(
     return limits, offsets
 
 
-def _placed(study: Study, scheme: Scheme, record: Record, offsets: Mapping[str, str]) -> Experiment:
+def _placed(
+    study: Study, scheme: Scheme, record: MassRecord, offsets: Mapping[str, str]
+) -> Experiment:
     """Return the experiment of a record with lag and offset, where the scheme has them."""
     update: dict[str, str] = {}
     if scheme.lag:
@@ -217,11 +221,11 @@ def _placed(study: Study, scheme: Scheme, record: Record, offsets: Mapping[str, 
     return changed(experiment, **update) if update else experiment
 
 
-def _has_offset(study: Study, record: Record) -> bool:
+def _has_offset(study: Study, record: MassRecord) -> bool:
     """Tell whether the study gives the temperature of a record an offset of its own."""
     return bool(study.experiments[record.experiment].temperature_offset_K != 0.0)  # type: ignore[union-attr]
 
 
-def may_lag(study: Study, records: Sequence[Record]) -> bool:
+def may_lag(study: Study, records: Sequence[MassRecord]) -> bool:
     """Tell whether no record has a lag already."""
     return all(study.experiments[r.experiment].lag_s == 0.0 for r in records)  # type: ignore[union-attr]

@@ -8,14 +8,14 @@ import numpy as np
 from pyrofit.cost.distances import root_mean_square
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.numerics import linear
-from pyrofit.scheme.fit import FittedScheme, Setting, fit_posed, problem_of
-from pyrofit.scheme.noise import log_density
-from pyrofit.scheme.records import Record, rates_of
+from pyrofit.scheme.fit import FittedScheme, SchemeSetting, fit_posed, problem_of
+from pyrofit.scheme.noise import log_density_of_noise
+from pyrofit.scheme.records import MassRecord, rates_of
 from pyrofit.solver.arrays import FloatArray
 
 
 @dataclass(frozen=True, eq=False)
-class Predicted:
+class PredictedRecord:
     """A record that a scheme predicts.
 
     Parameters
@@ -28,7 +28,7 @@ class Predicted:
         Log density of the record given those that the scheme was fitted to.
     """
 
-    record: Record
+    record: MassRecord
     curve: FloatArray
     log_score: float
 
@@ -38,7 +38,9 @@ class Predicted:
         return root_mean_square(self.curve - self.record.mass)
 
 
-def leave_rates_out(setting: Setting, fitted: FittedScheme, seed: int) -> list[Predicted]:
+def leave_rates_out(
+    setting: SchemeSetting, fitted: FittedScheme, seed: int
+) -> list[PredictedRecord]:
     """Predict each heating rate from a fit to the others."""
     found = []
     for rate in rates_of(setting.calibrated):
@@ -47,11 +49,13 @@ def leave_rates_out(setting: Setting, fitted: FittedScheme, seed: int) -> list[P
         rng = np.random.default_rng(seed)
         start, size = [fitted.values], fitted.size
         few = fit_posed(setting, fitted.posed, rest, start, rng, size, random=0)
-        found += predict(setting, few, left)
+        found += predict_records(setting, few, left)
     return found
 
 
-def predict(setting: Setting, fitted: FittedScheme, records: Sequence[Record]) -> list[Predicted]:
+def predict_records(
+    setting: SchemeSetting, fitted: FittedScheme, records: Sequence[MassRecord]
+) -> list[PredictedRecord]:
     """Predict records; the density has the uncertainty of the parameters, linearly.
 
     The residual of a record has the covariance C + J S J^T: J are the derivatives of its curve
@@ -68,6 +72,6 @@ def predict(setting: Setting, fitted: FittedScheme, records: Sequence[Record]) -
         if curve is None:
             curve = np.zeros(record.mass.size)
         total = scatter.covariance(fitted.size) + linear.product(slopes, spread, slopes.T)
-        score = log_density(curve - record.mass, total)
-        found.append(Predicted(record, curve, score))
+        score = log_density_of_noise(curve - record.mass, total)
+        found.append(PredictedRecord(record, curve, score))
     return found

@@ -17,7 +17,7 @@ FEWEST_RATES = 2
 
 
 @dataclass(frozen=True, eq=False)
-class Record:
+class MassRecord:
     """One record of mass against temperature.
 
     Parameters
@@ -65,7 +65,7 @@ class Record:
         return np.asarray(np.gradient(self.mass) / safe)
 
 
-def records_of(study: Study, measurements: Measurements, points: int) -> list[Record]:
+def records_of(study: Study, measurements: Measurements, points: int) -> list[MassRecord]:
     """Return the records of a study, those that schemes are fitted to first.
 
     Raises
@@ -83,12 +83,12 @@ def records_of(study: Study, measurements: Measurements, points: int) -> list[Re
     return found
 
 
-def rates_of(records: Sequence[Record]) -> list[float]:
+def rates_of(records: Sequence[MassRecord]) -> list[float]:
     """Return the heating rates of records [K/min], each once, slowest first."""
     return sorted({r.rate for r in records})
 
 
-def _check(study: Study, place: str, fitted: Sequence[Record]) -> None:
+def _check(study: Study, place: str, fitted: Sequence[MassRecord]) -> None:
     if not fitted:
         raise StudyError(
             f"study '{study.name}': {place} compares no mass of a TGA. Add a term with "
@@ -110,12 +110,12 @@ def _record(
     signal: str,
     calibrated: bool,
     points: int,
-) -> Record:
+) -> MassRecord:
     experiment = study.experiments[name]
     assert isinstance(experiment, HeatedExperiment)
     term = TermSpec(experiment=name, signal=signal, kind="RMSE", points=points)
     target = target_for(study, term, measurements)
-    return Record(
+    return MassRecord(
         experiment=name,
         signal=signal,
         rate=experiment.heating_rate_K_min,

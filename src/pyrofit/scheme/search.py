@@ -6,8 +6,8 @@ import numpy as np
 
 from pyrofit.logs import Tell
 from pyrofit.scheme.arrangements.base import PREFIX
-from pyrofit.scheme.fit import FittedScheme, Setting, fit_posed
-from pyrofit.scheme.posed import Posed, may_lag, own, pose
+from pyrofit.scheme.fit import FittedScheme, SchemeSetting, fit_posed
+from pyrofit.scheme.posed import Posed, may_lag, own, pose_scheme
 from pyrofit.scheme.schemes import PARALLEL, Scheme
 from pyrofit.seeds import seed_for
 
@@ -27,7 +27,7 @@ SHIFTS_K = (-60.0, 0.0, 25.0)
 """Temperature of a further reaction at first, from that of the first one."""
 
 
-def search(setting: Setting, tell: Tell) -> list[FittedScheme]:
+def search_schemes(setting: SchemeSetting, tell: Tell) -> list[FittedScheme]:
     """Fit schemes from one reaction of first order upwards; return them, least BIC first.
 
     Each round extends the best schemes so far by one feature: a reaction, an order, an early
@@ -56,23 +56,23 @@ def search(setting: Setting, tell: Tell) -> list[FittedScheme]:
     return sorted(fitted.values(), key=lambda f: f.bic)
 
 
-def _fit(setting: Setting, scheme: Scheme, parents: list[FittedScheme]) -> FittedScheme:
+def _fit(setting: SchemeSetting, scheme: Scheme, parents: list[FittedScheme]) -> FittedScheme:
     """Fit a scheme from the two best fits that it extends, and from random starts."""
     parents = sorted(parents, key=lambda f: f.bic)[:2]
     starts = [start for parent in parents for start in starts_from(parent, scheme)]
-    posed = pose(setting.study, scheme, setting.records, setting.settings)
+    posed = pose_scheme(setting.study, scheme, setting.records, setting.settings)
     size = parents[0].size if parents else None
     rng = _rng(setting, posed)
     return fit_posed(setting, posed, setting.calibrated, starts, rng, size)
 
 
-def fit_own(setting: Setting) -> FittedScheme:
+def fit_own(setting: SchemeSetting) -> FittedScheme:
     """Fit the scheme that the study describes."""
     posed = own(setting.study, setting.records)
     return fit_posed(setting, posed, setting.calibrated, [], _rng(setting, posed))
 
 
-def _rng(setting: Setting, posed: Posed) -> np.random.Generator:
+def _rng(setting: SchemeSetting, posed: Posed) -> np.random.Generator:
     return np.random.default_rng(seed_for(setting.study.seed, "scheme", posed.name))
 
 

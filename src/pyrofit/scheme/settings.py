@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
-class Settings:
+class SchemeSettings:
     """Noise of a record, its discrepancy, the search, and the rule of the choice.
 
     Mass is counted as a fraction of the initial mass.

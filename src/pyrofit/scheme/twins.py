@@ -12,11 +12,11 @@ from pyrofit.estimate.targets import Measurements
 from pyrofit.numerics import functions
 from pyrofit.quantities import quantities_of
 from pyrofit.scheme.arrangements.base import PREFIX
-from pyrofit.scheme.fit import Setting, problem_of
-from pyrofit.scheme.posed import pose
-from pyrofit.scheme.records import Record, records_of
+from pyrofit.scheme.fit import SchemeSetting, problem_of
+from pyrofit.scheme.posed import pose_scheme
+from pyrofit.scheme.records import MassRecord, records_of
 from pyrofit.scheme.schemes import Scheme
-from pyrofit.scheme.settings import Settings
+from pyrofit.scheme.settings import SchemeSettings
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.outputs import MASS_FRACTION
 
@@ -26,10 +26,10 @@ HELD_OUT_RATES = (2.0, 5.0, 20.0, 100.0)
 
 
 @dataclass(frozen=True, eq=False)
-class Twin:
+class SchemeTwin:
     """A study with computed records, and their clean curves by experiment, as fits see them."""
 
-    setting: Setting
+    setting: SchemeSetting
     scheme: Scheme
     truth: Mapping[str, float]
     clean: Mapping[str, FloatArray]
@@ -37,7 +37,7 @@ class Twin:
 
 def study_of(fitted: Sequence[float], held_out: Sequence[float], seed: int) -> Study:
     """Return a study with a material of one reaction and records at some rates [K/min]."""
-    heated = {name_of(rate): _heated(rate) for rate in (*fitted, *held_out)}
+    heated = {name_at_rate(rate): _heated(rate) for rate in (*fitted, *held_out)}
     shown = next(iter(quantities_of("gasification")))
     # Every study has an inverse modelling; of this one only the kinetics are used.
     mass = {"signal": MASS_FRACTION, "kind": "RMSE"}
@@ -53,8 +53,8 @@ def study_of(fitted: Sequence[float], held_out: Sequence[float], seed: int) -> S
         "experiments": {**heated, "slab": _slab(shown)},
         "kinetics": {
             "estimate": ["T", "E"],
-            "cost": [{"experiment": name_of(rate), **mass} for rate in fitted],
-            "compare": [name_of(rate) for rate in held_out],
+            "cost": [{"experiment": name_at_rate(rate), **mass} for rate in fitted],
+            "compare": [name_at_rate(rate) for rate in held_out],
         },
         "imp": {
             "estimate": ["k"],
@@ -70,7 +70,7 @@ def _heated(rate: float) -> dict[str, Any]:
     return {
         "kind": "tga",
         "heating_rate_K_min": rate,
-        "signals": {MASS_FRACTION: {"file": f"{name_of(rate)}.csv"}},
+        "signals": {MASS_FRACTION: {"file": f"{name_at_rate(rate)}.csv"}},
     }
 
 
@@ -100,10 +100,10 @@ def _material() -> dict[str, Any]:
     }
 
 
-def name_of(rate: float) -> str:
+def name_at_rate(rate: float) -> str:
     """Return the experiment's name at a heating rate [K/min].
 
-    >>> name_of(2.5)
+    >>> name_at_rate(2.5)
     'tga_2_5'
     """
     return f"tga_{rate:g}".replace(".", "_")
@@ -131,18 +131,20 @@ def draw_truth(scheme: Scheme, rng: np.random.Generator) -> dict[str, float]:
     return {PREFIX + key: float(value) for key, value in truth.items()}
 
 
-def make_twin(scheme: Scheme, seed: int, settings: Settings) -> Twin:
+def make_scheme_twin(scheme: Scheme, seed: int, settings: SchemeSettings) -> SchemeTwin:
     """Return a twin whose truth is a scheme, with drawn parameters and noise."""
     rng = np.random.default_rng(seed)
     study = study_of(FITTED_RATES, HELD_OUT_RATES, seed)
     truth = draw_truth(scheme, rng)
     blank = {
-        (name_of(rate), MASS_FRACTION): _frame(rate, np.linspace(1.0, 0.0, TEMPERATURES_K.size))
+        (name_at_rate(rate), MASS_FRACTION): _frame(
+            rate, np.linspace(1.0, 0.0, TEMPERATURES_K.size)
+        )
         for rate in (*FITTED_RATES, *HELD_OUT_RATES)
     }
     measured, clean = dict(blank), {}
     for name, signal in blank:
-        exact = simulated(study, scheme, truth, blank, name, settings)
+        exact = simulated_masses(study, scheme, truth, blank, name, settings)
         rate = study.experiments[name].heating_rate_K_min  # type: ignore[union-attr]
         measured[name, signal] = _frame(rate, exact + _noise(exact, settings, rng))
         clean[name] = exact
@@ -151,31 +153,33 @@ def make_twin(scheme: Scheme, seed: int, settings: Settings) -> Twin:
         r.experiment: np.interp(r.temperature_K, TEMPERATURES_K, clean[r.experiment])
         for r in records
     }
-    return Twin(Setting(study, measured, records, settings), scheme, truth, seen)
+    return SchemeTwin(SchemeSetting(study, measured, records, settings), scheme, truth, seen)
 
 
-def simulated(
+def simulated_masses(
     study: Study,
     scheme: Scheme,
     values: Mapping[str, float],
     measurements: Measurements,
     name: str,
-    settings: Settings,
+    settings: SchemeSettings,
 ) -> FloatArray:
     """Return the mass over the initial mass of a scheme at every temperature of a record."""
     records = records_of(study, measurements, settings.points)
     term = TermSpec(experiment=name, signal=MASS_FRACTION, kind="RMSE")
     whole = [_with_term(r, term) for r in records if r.experiment == name]
-    posed = pose(study, scheme, records, settings)
-    problem, _ = problem_of(Setting(study, measurements, tuple(records), settings), posed, whole)
+    posed = pose_scheme(study, scheme, records, settings)
+    problem, _ = problem_of(
+        SchemeSetting(study, measurements, tuple(records), settings), posed, whole
+    )
     x = np.array([values[n] for n in posed.names])
     status, models = problem.simulate(x)
     assert status.finished
     return models[0]
 
 
-def _with_term(record: Record, term: TermSpec) -> Record:
-    return Record(**{**vars(record), "term": term})
+def _with_term(record: MassRecord, term: TermSpec) -> MassRecord:
+    return MassRecord(**{**vars(record), "term": term})
 
 
 def _frame(rate: float, mass: FloatArray) -> pd.DataFrame:
@@ -183,7 +187,7 @@ def _frame(rate: float, mass: FloatArray) -> pd.DataFrame:
     return pd.DataFrame({"time_s": time, "temperature_K": TEMPERATURES_K, MASS_FRACTION: mass})
 
 
-def _noise(mass: FloatArray, settings: Settings, rng: np.random.Generator) -> FloatArray:
+def _noise(mass: FloatArray, settings: SchemeSettings, rng: np.random.Generator) -> FloatArray:
     """Return scatter of points, drift of the balance, and a shift of the temperature."""
     steps = np.diff(TEMPERATURES_K, prepend=TEMPERATURES_K[0])
     memory = functions.exp(-steps / settings.drift_length_K)

@@ -1,7 +1,7 @@
 """The result in sentences, and the rule of the choice."""
 
 from pyrofit.scheme.choice import Candidate, Choice
-from pyrofit.scheme.settings import Settings
+from pyrofit.scheme.settings import SchemeSettings
 
 RULE = (
     "The log scores of the heating rates left out are summed. A scheme predicts as "
@@ -14,7 +14,7 @@ RULE = (
 )
 
 
-def sentences(choice: Choice, settings: Settings) -> str:
+def sentences(choice: Choice, settings: SchemeSettings) -> str:
     """State the chosen scheme, its predictions, and its misfit."""
     chosen, own = choice.chosen, choice.own
     said = [
@@ -42,7 +42,7 @@ def _own(own: Candidate) -> str:
     return f"fitted alike, with {own.left_out_rms:.2g} ({own.fitted.posed.count} parameters)"
 
 
-def _left(chosen: Candidate, settings: Settings) -> str:
+def _left(chosen: Candidate, settings: SchemeSettings) -> str:
     size = chosen.fitted.size
     scheme = chosen.fitted.posed.scheme
     assert scheme is not None

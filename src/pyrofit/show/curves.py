@@ -20,7 +20,7 @@ from pyrofit.quantities.base import Quantity
 from pyrofit.results import prediction, recorded
 from pyrofit.results.files import Results
 from pyrofit.show import style
-from pyrofit.show.drawn import Axes, Canvas, Line2D, Look, Patch
+from pyrofit.show.drawn import Axes, Canvas, DrawStyle, Line2D, Patch
 from pyrofit.show.names import data_name
 from pyrofit.show.units import difference, shown
 
@@ -48,9 +48,9 @@ def compare_curves(
             look = look_of(study, chosen) | ({"linewidth": 0.7} if len(group) > 1 else {})
             for name, signal in group:
                 quantity = study.experiments[name].quantity(signal)
-                curve = curve_of(curves, name, signal, chosen.label)
+                curve = curve_of_set(curves, name, signal, chosen.label)
                 ax.plot(curve["time_s"], shown(quantity, curve["simulated"]), **look)
-    label_axes(axes, [label_of(study, *group[0]) for group in groups])
+    label_axes(axes, [label_of_axis(study, *group[0]) for group in groups])
     entries = measured_entries(study, results, pairs, with_line=True)
     style.legend_below(canvas, [*entries, *set_entries(study, shown_sets)])
     return canvas
@@ -88,20 +88,20 @@ def _draw_measured(ax: Axes, study: Study, results: Results, name: str, signal: 
     ax.plot(frame["time_s"], shown(quantity, frame[quantity.column]), **_MEASURED)
 
 
-def label_of(study: Study, name: str, signal: str) -> str:
+def label_of_axis(study: Study, name: str, signal: str) -> str:
     """Return the label of an axis, in short lines: the signal in words and the unit shown."""
     experiment = study.experiments[name]
     unit = experiment.quantity(signal).shown.unit
     return style.in_lines(f"{experiment.words(signal)} [{unit}]")
 
 
-_MEASURED: Look = {"color": style.MEASURED, "linewidth": 0.7}
+_MEASURED: DrawStyle = {"color": style.MEASURED, "linewidth": 0.7}
 
 
-_ESTIMATES: Look = {"color": style.ESTIMATES, "linewidth": 1.3}
+_ESTIMATES: DrawStyle = {"color": style.ESTIMATES, "linewidth": 1.3}
 
 
-_THEIRS: Look = {"color": style.PUBLISHED, "linewidth": 0.6, "markersize": 3.2}
+_THEIRS: DrawStyle = {"color": style.PUBLISHED, "linewidth": 0.6, "markersize": 3.2}
 _THEIRS |= {"markerfacecolor": "white", "markeredgewidth": 0.7}
 
 
@@ -134,10 +134,10 @@ def label_axes(axes: Sequence[Axes], texts: Sequence[str]) -> None:
 def predicted_curves(study: Study, results: Results) -> pd.DataFrame:
     """Return the curves of all predicted sets."""
     labels = [chosen.label for chosen in predicted_sets(study)]
-    return prediction.curves(study, results, labels)
+    return prediction.read_predicted_curves(study, results, labels)
 
 
-def curve_of(curves: pd.DataFrame, name: str, signal: str, label: str) -> pd.DataFrame:
+def curve_of_set(curves: pd.DataFrame, name: str, signal: str, label: str) -> pd.DataFrame:
     """Return the curve of one signal and set."""
     here = (curves["experiment"] == name) & (curves["signal"] == signal)
     return curves[here & (curves["set"] == label)]
@@ -156,7 +156,7 @@ def draw_band(ax: Axes, frame: pd.DataFrame, quantity: Quantity, about_zero: boo
     ax.fill_between(frame["time_s"], low, high, color=style.BAND, linewidth=0.0)
 
 
-def look_of(study: Study, chosen: PredictedSet) -> Look:
+def look_of(study: Study, chosen: PredictedSet) -> DrawStyle:
     """Return the line style of a set."""
     if chosen.origin == ESTIMATES:
         return _ESTIMATES
@@ -166,12 +166,12 @@ def look_of(study: Study, chosen: PredictedSet) -> Look:
     if chosen.origin in STARTED:
         (marker,) = (by.marker for by in OPTIMISERS.values() if by.words == chosen.origin)
         first = 0.03 * STARTED.index(chosen.origin)
-        marks: Look = {"marker": marker, "markersize": 2.2, "markevery": (first, 0.06)}
+        marks: DrawStyle = {"marker": marker, "markersize": 2.2, "markevery": (first, 0.06)}
         return {**look, "linewidth": 0.7, **marks}
     return look
 
 
-def _marks(study: Study, cost: str) -> Look:
+def _marks(study: Study, cost: str) -> DrawStyle:
     """Return the markers of a cost's published set, beside those of the other costs."""
     costs = list(study.imp.costs)
     i = costs.index(cost)

@@ -12,25 +12,25 @@ from pyrofit.show.diagnosis import FIGURES, TABLES
 from pyrofit.show.diagnosis.curves import curve_figures
 from pyrofit.show.diagnosis.sentences import (
     certainty,
-    facts,
     gap_closed,
-    missing,
+    missing_sentences,
     next_measured,
+    summary_sentences,
     where_off,
 )
 from pyrofit.show.html import page_of
 from pyrofit.show.measured import use_in_diagnosis
 from pyrofit.show.page import Page, pages_of_steps
-from pyrofit.show.parts import Part, Question, study_to_run
+from pyrofit.show.parts import Passage, Question, study_to_run
 from pyrofit.show.table import Frames, always, write_table
 
 
-def exists(study: Study, results: Results) -> bool:
+def is_drawn(study: Study, results: Results) -> bool:
     """Tell whether a study has been diagnosed and that is drawn: its page is written last."""
     return results.diagnosis("report.html").is_file()
 
 
-def _extended(study: Study, results: Results) -> Sequence[Part]:
+def _extended(study: Study, results: Results) -> Sequence[Passage]:
     """Say how the study with the named effects is run."""
     found = diagnosis.read(study, results)
     if not found.extended_study:
@@ -50,18 +50,18 @@ PAGE = Page(
     written=False,
     about={
         100: lambda study, found: where_off(found),
-        200: lambda study, found: missing(found),
+        200: lambda study, found: missing_sentences(found),
         500: lambda study, found: gap_closed(found),
         600: certainty,
         800: lambda study, found: next_measured(found),
     },
-    exists=exists,
+    exists=is_drawn,
     more=_extended,
 )
-"""The page without its figures: `of_diagnosis` adds those that a diagnosis has."""
+"""The page without its figures: `page_of_diagnosis` adds those that a diagnosis has."""
 
 
-def of_diagnosis(study: Study, found: Diagnosis) -> Page:
+def page_of_diagnosis(study: Study, found: Diagnosis) -> Page:
     """Return the page with the figures that a diagnosis has, curves of each quantity first."""
     others = {n: replace(f, applies=always) for n, f in FIGURES.items() if f.applies(found)}
     return replace(PAGE, figures={**curve_figures(study, found), **others})
@@ -77,11 +77,11 @@ def write_page(study: Study, results: Results) -> None:
     """
     frames = write_diagnosis_tables(study, results)
     found = diagnosis.read(study, results)
-    shown = [of_diagnosis(study, found).section(study, results, found, frames)]
+    shown = [page_of_diagnosis(study, found).section(study, results, found, frames)]
     shown += [page.section(study, results) for page in pages_of_steps("diagnosis", study, results)]
     title = f"{study.title or study.name}: diagnosis"
     measured = recorded.measured(study, results)
-    said = [Question("", tuple(facts(found)))]
+    said = [Question("", tuple(summary_sentences(found)))]
     text = page_of(study, measured, title, said, shown, use=use_in_diagnosis)
     write_text(results.diagnosis("report.html"), text)
 
@@ -96,7 +96,7 @@ def draw_all(results: Results, study: Study, processes: int = 1) -> list[str]:
     DataError
         A result is missing or broken.
     """
-    page = of_diagnosis(study, diagnosis.read(study, results))
+    page = page_of_diagnosis(study, diagnosis.read(study, results))
     names = list(page.figures)
     parallel_map(lambda i: page.draw(names[i], study, results), len(names), processes)
     for path in results.diagnosis("").iterdir():

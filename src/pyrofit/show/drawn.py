@@ -5,7 +5,7 @@ The workflow reads titles, captions and names of all figures each time that it s
 
 from typing import TYPE_CHECKING, Any, Literal, TypedDict
 
-__all__ = ["Axes", "Canvas", "Line2D", "Look", "Patch"]
+__all__ = ["Axes", "Canvas", "DrawStyle", "Line2D", "Patch"]
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -16,7 +16,7 @@ else:
     Axes = Canvas = Line2D = Patch = Any
 
 
-class Look(TypedDict, total=False):
+class DrawStyle(TypedDict, total=False):
     """How lines, markers, areas and words are drawn, by Matplotlib's names; sizes in points."""
 
     color: str

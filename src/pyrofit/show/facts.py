@@ -5,14 +5,14 @@ from dataclasses import dataclass
 
 import pandas as pd
 
-from pyrofit.analysis.answer import Outside, outside_intervals
+from pyrofit.analysis.answer import OutsideAnswer, outside_intervals
 from pyrofit.analysis.assumptions import assumptions
 from pyrofit.analysis.best_sets import best_sets
 from pyrofit.analysis.distances import Distance, distances
-from pyrofit.analysis.estimates import Estimated, estimated
-from pyrofit.analysis.known_values import Known, known_values
-from pyrofit.analysis.repetitions import Repeated, repeated
-from pyrofit.analysis.scores import Score, scores
+from pyrofit.analysis.estimates import Estimated, estimates_of
+from pyrofit.analysis.known_values import KnownBesideEstimate, known_values
+from pyrofit.analysis.repetitions import OverRepetitions, repeated
+from pyrofit.analysis.scores import Score, scores_of_sets
 from pyrofit.analysis.trade_offs import TradeOff, trade_offs
 from pyrofit.analysis.uses import predicted_labels
 from pyrofit.analysis.wall_times import wall_times
@@ -78,15 +78,15 @@ class Facts:
 
     tables: Frames
     estimates: list[Estimated]
-    known: list[Known]
+    known: list[KnownBesideEstimate]
     trade_offs: list[TradeOff]
     goodness: Mapping[str, Goodness]
     chi2_per_point: Mapping[str, float]
-    outside: list[Outside]
+    outside: list[OutsideAnswer]
     assumptions: Mapping[str, list[str]]
     influence: Mapping[str, float] | None
     distances: list[Distance]
-    repeated: list[Repeated]
+    repeated: list[OverRepetitions]
     scores: list[Score]
     times: Mapping[str, list[float]]
     isoconversional: list[str]
@@ -108,8 +108,8 @@ def facts_of(study: Study, results: Results, tables: Frames) -> Facts:
     searched = searches.read(study, results, OPTIMISERS)
     predicted = pd.DataFrame()
     if study.validation.experiments:
-        predicted = prediction.scores(study, results, predicted_labels(study))
-    estimates = estimated(study, identified)
+        predicted = prediction.read_scores(study, results, predicted_labels(study))
+    estimates = estimates_of(study, identified)
     return Facts(
         tables=tables,
         estimates=estimates,
@@ -122,9 +122,9 @@ def facts_of(study: Study, results: Results, tables: Frames) -> Facts:
         influence=_influence(study, results),
         distances=distances(study, identified),
         repeated=repeated(study, searched.repetitions),
-        scores=scores(study, predicted),
+        scores=scores_of_sets(study, predicted),
         times=wall_times(study, results),
-        isoconversional=isoconversional.findings(results),
+        isoconversional=isoconversional.read_findings(results),
         offers=isoconversional.offers(results),
         suspect=_suspect(study, results),
         water=_water(study, results),

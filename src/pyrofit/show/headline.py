@@ -6,7 +6,7 @@ from collections.abc import Iterator
 import pandas as pd
 
 from pyrofit.analysis.best_predicting import never_fitted, of_answer
-from pyrofit.analysis.scores import scores
+from pyrofit.analysis.scores import scores_of_sets
 from pyrofit.analysis.uses import predicted_labels
 from pyrofit.config import Study
 from pyrofit.errors import PyrofitError
@@ -20,7 +20,7 @@ def ending(study: Study, results: Results, since: float) -> Iterator[str]:
     """Yield the last lines of a run that started at a time: its pages, with what they tell."""
     for name, tell, page in (
         ("Report", headline, results.root / "report.html"),
-        ("Diagnosis", verdict, results.diagnosis("report.html")),
+        ("Diagnosis", verdict_of_diagnosis, results.diagnosis("report.html")),
     ):
         if page.exists():
             if page.stat().st_mtime >= since:
@@ -43,8 +43,8 @@ def headline(study: Study, results: Results) -> str:
     said = [verdict_words(STAGES[stage], goodness.read(results, stage)) for stage in stages]
     predicted = pd.DataFrame()
     if study.validation.experiments:
-        predicted = prediction.scores(study, results, predicted_labels(study))
-    mine = of_answer(never_fitted(scores(study, predicted)))
+        predicted = prediction.read_scores(study, results, predicted_labels(study))
+    mine = of_answer(never_fitted(scores_of_sets(study, predicted)))
     if mine:
         said.append(f"Held-out tests: the estimates predict {all_scored(mine)}.")
     else:
@@ -52,7 +52,7 @@ def headline(study: Study, results: Results) -> str:
     return "\n".join(said)
 
 
-def verdict(study: Study, results: Results) -> str:
+def verdict_of_diagnosis(study: Study, results: Results) -> str:
     """Return the verdict of the diagnosis in words.
 
     Raises

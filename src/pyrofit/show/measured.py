@@ -21,7 +21,7 @@ Use = Callable[[Study, str, str], str]
 """Returns the use of a series in words, given a study, an experiment and a signal."""
 
 
-def series(study: Study, measured: Measured, use: Use) -> list[dict[str, Any]]:
+def rows_of_series(study: Study, measured: Measured, use: Use) -> list[dict[str, Any]]:
     """Return a row for each measured series."""
     rows = []
     for name, signals in measured.about.items():

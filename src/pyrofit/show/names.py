@@ -44,7 +44,7 @@ def verdict_of(estimate: Estimated) -> str:
     return f"at its {estimate.bound} limit{loose}"
 
 
-def named(estimate: Estimated) -> str:
+def named_estimate(estimate: Estimated) -> str:
     """Return a parameter with the width of its interval and the bound that it is at."""
     bound = f", {estimate.bound} limit" if estimate.bound else ""
     return f"{estimate.name} ({span([100.0 * estimate.width])} %{bound})"

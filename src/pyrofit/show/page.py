@@ -11,8 +11,8 @@ from pyrofit.results.files import Results
 from pyrofit.results.step import check_options, exists
 from pyrofit.show.figure import Figure, draw_figure
 from pyrofit.show.names import titled
-from pyrofit.show.parts import Part, Picture, Shown, picture, table_part
-from pyrofit.show.table import Frames, Table, read_table, write_table
+from pyrofit.show.parts import Passage, Picture, Section, picture, table_part
+from pyrofit.show.table import Frames, Table, read_written_table, write_table
 from pyrofit.steps import known_steps
 
 _OF_CAMPAIGN = ("tables", "figures")
@@ -30,7 +30,7 @@ def _nothing(study: Study, results: Results) -> None:
     pass
 
 
-def _no_parts(study: Study, results: Results) -> Sequence[Part]:
+def _no_parts(study: Study, results: Results) -> Sequence[Passage]:
     return ()
 
 
@@ -84,7 +84,7 @@ class Page:
     about: Mapping[int, Callable[[Study, Any], str]] = field(default_factory=dict)
     exists: Callable[[Study, Results], bool] = _always
     finish: Callable[[Study, Results], None] = _nothing
-    more: Callable[[Study, Results], Sequence[Part]] = _no_parts
+    more: Callable[[Study, Results], Sequence[Passage]] = _no_parts
 
     @property
     def modules(self) -> list[str]:
@@ -149,13 +149,15 @@ class Page:
         """
         names = [name for name in self.tables_of(study) if self.tables[name].shown]
         if self.written:
-            return {n: read_table(results, f"{self.prefix}{n}", self.folders[0]) for n in names}
+            return {
+                n: read_written_table(results, f"{self.prefix}{n}", self.folders[0]) for n in names
+            }
         made = {name: self.tables[name].make(study, results) for name in names}
         return {name: frame for name, frame in made.items() if len(frame)}
 
     def section(
         self, study: Study, results: Results, facts: Any = None, frames: Frames | None = None
-    ) -> Shown | None:
+    ) -> Section | None:
         """Return its section, none where the study has no part of it.
 
         Parameters
@@ -176,7 +178,7 @@ class Page:
         facts = results if facts is None else facts
         frames = self.frames(study, results) if frames is None else frames
         told = self._told(study, facts, frames)
-        parts: list[Part | Picture] = []
+        parts: list[Passage | Picture] = []
         for name, item in self._items():
             if isinstance(item, Figure):
                 if item.shown and item.applies(study):
@@ -184,12 +186,12 @@ class Page:
             elif name in frames:
                 parts.append(table_part(study, item, frames[name], told.get(name, "")))
             elif name in told:
-                parts.append(Part(item.title, text=told[name]))
+                parts.append(Passage(item.title, text=told[name]))
         parts += self.more(study, results)
         if not parts:
             return None
         said = tuple(self.sentences(study, facts))
-        return Shown(self.name, self.heading, self.text, tuple(parts), said, self.folded)
+        return Section(self.name, self.heading, self.text, tuple(parts), said, self.folded)
 
     def _items(self) -> list[tuple[str, Table | Figure]]:
         items: list[tuple[str, Table | Figure]] = [*self.tables.items(), *self.figures.items()]

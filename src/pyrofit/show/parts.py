@@ -26,7 +26,7 @@ class Question:
 
 
 @dataclass(frozen=True)
-class Part:
+class Passage:
     """A heading with sentences, a table with one body per group, its note, a command; or some."""
 
     title: str
@@ -49,18 +49,18 @@ class Picture:
 
 
 @dataclass(frozen=True)
-class Shown:
+class Section:
     """A section: heading, subject, remarks, tables and figures; one on methods is folded."""
 
     anchor: str
     heading: str
     text: str
-    parts: tuple[Part | Picture, ...] = field(default=())
+    parts: tuple[Passage | Picture, ...] = field(default=())
     said: tuple[str, ...] = ()
     folded: bool = False
 
 
-def study_to_run(what: str, with_what: str, path: Path) -> Part:
+def study_to_run(what: str, with_what: str, path: Path) -> Passage:
     """Return a part that says how a study with additions is run.
 
     Parameters
@@ -70,14 +70,14 @@ def study_to_run(what: str, with_what: str, path: Path) -> Part:
     path
         The file of the study.
     """
-    return Part(
+    return Passage(
         f"The study with the {what}",
         text=f"{path.as_posix()} is this study with the {with_what}. It is a study like any other:",
         command=f"snakemake --cores 2 --configfile {path.as_posix()}",
     )
 
 
-def table_part(study: Study, table: Table, frame: pd.DataFrame, text: str = "") -> Part:
+def table_part(study: Study, table: Table, frame: pd.DataFrame, text: str = "") -> Passage:
     """Return a table as a part of a page, with sentences before it.
 
     Bodies and rows that belong to one cost function say so under ``cost`` and ``costs``.
@@ -95,7 +95,7 @@ def table_part(study: Study, table: Table, frame: pd.DataFrame, text: str = "") 
                 "costs": [""] * len(part) if cost is None else part[cost].astype(str).tolist(),
             }
         )
-    return Part(titled(study, table.title, table.paper), table.note, tuple(bodies), text)
+    return Passage(titled(study, table.title, table.paper), table.note, tuple(bodies), text)
 
 
 def picture(path: Path, name: str, title: str, caption: str, verdict: str = "") -> Picture:

@@ -13,12 +13,12 @@ from pyrofit.show.page import Page
 from pyrofit.show.table import Table
 
 
-def exists(study: Study, results: Results) -> bool:
+def was_tried(study: Study, results: Results) -> bool:
     """Whether external programs simulate experiments, and have been tried."""
     return bool(externals(study)) and results.programs("trial.json").is_file()
 
 
-def origin(results: Results) -> dict[str, Any]:
+def origin_of_runs(results: Results) -> dict[str, Any]:
     """Return command, program, version and checksums of the runs by experiment.
 
     Raises
@@ -71,5 +71,5 @@ PAGE = Page(
     tables={"programs": TABLE},
     figures={},
     written=False,
-    exists=exists,
+    exists=was_tried,
 )

@@ -35,13 +35,13 @@ def write_report(study: Study, results: Results) -> None:
         )
     ]
     made = provenance(study, measured)
-    if programs_page.exists(study, results):
-        made["programs"] = programs_page.origin(results)
+    if programs_page.was_tried(study, results):
+        made["programs"] = programs_page.origin_of_runs(results)
     lacks = ""
-    if diagnosis_page.exists(study, results):
+    if diagnosis_page.is_drawn(study, results):
         found = diagnosis.read(study, results)
         lacks = found.verdict.words
-        shown.append(diagnosis_page.of_diagnosis(study, found).section(study, results, found))
+        shown.append(diagnosis_page.page_of_diagnosis(study, found).section(study, results, found))
         shown += [
             page.section(study, results) for page in pages_of_steps("diagnosis", study, results)
         ]

@@ -9,7 +9,7 @@ import numpy as np
 
 from pyrofit.config import Study
 from pyrofit.results.files import Results, write_bytes
-from pyrofit.show.drawn import Axes, Canvas, Line2D, Look, Patch
+from pyrofit.show.drawn import Axes, Canvas, DrawStyle, Line2D, Patch
 
 MM = 1.0 / 25.4
 
@@ -112,7 +112,7 @@ def dashes(i: int) -> Any:
     return DASHES[i % len(DASHES)]
 
 
-def cost_styles(study: Study) -> dict[str, Look]:
+def cost_styles(study: Study) -> dict[str, DrawStyle]:
     """Return colour and line style of each cost function."""
     return {
         cost: {"color": colour(i), "linestyle": dashes(i)} for i, cost in enumerate(study.imp.costs)
@@ -224,6 +224,6 @@ def style() -> Any:
     return mpl.rc_context(settings)
 
 
-def celsius(kelvin: Any) -> Any:
+def axis_celsius(kelvin: Any) -> Any:
     """Convert K to degrees Celsius, for an axis."""
     return np.asarray(kelvin, dtype=float) - 273.15

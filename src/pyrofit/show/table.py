@@ -47,7 +47,7 @@ def write_table(folder: Path, name: str, table: Table, frame: pd.DataFrame, stud
     write_text(folder / f"{name}.md", _page(study, table, frame))
 
 
-def read_table(results: Results, name: str, folder: str = "tables") -> pd.DataFrame:
+def read_written_table(results: Results, name: str, folder: str = "tables") -> pd.DataFrame:
     """Read a table that was written.
 
     Raises

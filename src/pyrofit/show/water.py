@@ -2,10 +2,10 @@
 
 from pyrofit.quantities.units import ICE_POINT_K
 from pyrofit.show.text import listed
-from pyrofit.steps.preview.record import Found
+from pyrofit.steps.preview.record import Preview
 
 
-def lacking_water(found: Found) -> str:
+def lacking_water(found: Preview) -> str:
     """Say where temperatures show water of which the model has none; nothing where they do not."""
     if not found.held_up:
         return ""

@@ -6,8 +6,8 @@ from pyrofit.model import material as words
 from pyrofit.model.base import value_of
 from pyrofit.model.slab import SlabExperiment
 from pyrofit.solver.arrays import Exposure, Material, Values
-from pyrofit.solver.lower_experiment import Layer
-from pyrofit.solver.lower_exposure import at_temperature, number
+from pyrofit.solver.lower_experiment import LoweredLayer
+from pyrofit.solver.lower_exposure import number_of_sets, properties_at
 from pyrofit.solver.lower_property import total
 
 BACKING_TIME_S = 2.0
@@ -23,27 +23,27 @@ def lower_backing(
     values: Values,
     sets: int = 1,
     cells_factor: float = 1.0,
-) -> tuple[Layer, ...]:
+) -> tuple[LoweredLayer, ...]:
     """Return the inert layers behind the sample, front first, with their own numbers of cells.
 
     A cell is as thick as heat diffuses within `BACKING_TIME_S`, d = sqrt(k/(rho c) t).
     """
     names = list(material.components)
     T = value_of(experiment.sample.initial_temperature_K, values)
-    k, c = (at_temperature(table, T) for table in (arrays.conductivity, arrays.specific_heat))
+    k, c = (properties_at(table, T) for table in (arrays.conductivity, arrays.specific_heat))
     layers = []
     for layer in experiment.sample.backing:
         i = names.index(layer.component)
-        size = number(value_of(layer.thickness_m, values), sets)
+        size = number_of_sets(value_of(layer.thickness_m, values), sets)
         mass = np.zeros((len(names), sets))
         mass[i] = size / arrays.specific_volume[i]
         depth = np.sqrt(k[i] * arrays.specific_volume[i] / c[i] * BACKING_TIME_S)
         cells = np.ceil(cells_factor * np.clip(size / depth, *BACKING_CELLS))
-        layers.append(Layer(mass, size, cells))
+        layers.append(LoweredLayer(mass, size, cells))
     return tuple(layers)
 
 
-def with_backing(exposure: Exposure, layers: tuple[Layer, ...]) -> Exposure:
+def with_backing(exposure: Exposure, layers: tuple[LoweredLayer, ...]) -> Exposure:
     """Return the exposure with mass, thickness and cells of the layers behind the sample.
 
     The solver must tell these from the sample.

@@ -19,11 +19,11 @@ from pyrofit.solver.arrays import (
 )
 from pyrofit.solver.curves import Place, Request
 from pyrofit.solver.lower import fractions
-from pyrofit.solver.lower_exposure import number
+from pyrofit.solver.lower_exposure import number_of_sets
 from pyrofit.solver.lower_property import total
 
 
-class Layer(NamedTuple):
+class LoweredLayer(NamedTuple):
     """A layer of the virgin sample, or behind it."""
 
     mass: FloatArray
@@ -78,7 +78,7 @@ def lower_layers(
     values: Values,
     sets: int = 1,
     front: FloatArray | None = None,
-) -> tuple[Layer, ...]:
+) -> tuple[LoweredLayer, ...]:
     """Return the layers of the virgin sample, front first, and the adhesive behind them.
 
     ``front`` are the mass fractions of the front layer, if they are known.
@@ -91,7 +91,7 @@ def lower_layers(
         if share is None or layer is not sample.layers[0]:
             share = fractions(layer.composition or material.composition, names, values, sets)
         mass = size / total(share * arrays.specific_volume)
-        layers.append(Layer(share * mass, number(size, sets)))
+        layers.append(LoweredLayer(share * mass, number_of_sets(size, sets)))
     if sample.adhesive is not None:
         i, size = (
             names.index(sample.adhesive.component),
@@ -99,12 +99,12 @@ def lower_layers(
         )
         mass = np.zeros((len(names), sets))
         mass[i] = size / arrays.specific_volume[i]
-        layers.append(Layer(mass, number(size, sets), added=True))
+        layers.append(LoweredLayer(mass, number_of_sets(size, sets), added=True))
     return tuple(layers)
 
 
-def cells_of(
-    layers: tuple[Layer, ...], cells: IntArray, multiple: int = 1
+def share_out_cells(
+    layers: tuple[LoweredLayer, ...], cells: IntArray, multiple: int = 1
 ) -> tuple[FloatArray, IntArray]:
     """Share out the cells by thickness, at least two to a layer, equally thick in a layer.
 
@@ -140,7 +140,7 @@ def cells_of(
     return out, empty
 
 
-def _equal_cells(layer: Layer, count: int, multiple: int) -> tuple[FloatArray, IntArray]:
+def _equal_cells(layer: LoweredLayer, count: int, multiple: int) -> tuple[FloatArray, IntArray]:
     """Return the masses of the cells, and the empty ones, for one set of one layer."""
     empty = -count % multiple
     out = np.zeros((empty + count, *layer.mass.shape))
@@ -148,7 +148,7 @@ def _equal_cells(layer: Layer, count: int, multiple: int) -> tuple[FloatArray, I
     return out, np.array([empty])
 
 
-def _added(layer: Layer, sample: list[Layer], cells: IntArray) -> IntArray:
+def _added(layer: LoweredLayer, sample: list[LoweredLayer], cells: IntArray) -> IntArray:
     """Return the cells of an added layer, at least two; none where it has no thickness."""
     share = np.rint(cells * layer.thickness / sum(of.thickness for of in sample))
     return np.where(layer.thickness > 0.0, np.maximum(2, share), 0).astype(np.int64)

@@ -19,7 +19,7 @@ from pyrofit.solver.lower_property import total
 from pyrofit.solver.schedule import lower_schedule
 
 
-def number(value: Value, sets: int) -> Number:
+def number_of_sets(value: Value, sets: int) -> Number:
     """Return a value for every set, shape (sets,)."""
     if sets == 1 and isinstance(value, float):
         return np.array([value])
@@ -28,14 +28,18 @@ def number(value: Value, sets: int) -> Number:
 
 def _surface(side: Side, values: Values, sets: int, factor: Value = 1.0) -> Surface:
     return Surface(
-        h_cube_root=number(factor * value_of(side.h_cube_root_W_m2K43, values), sets),
-        gas_rise=number(value_of(side.gas_rise_K, values), sets),
-        gas_rise_time=number(value_of(side.gas_rise_time_s, values), sets),
+        h_cube_root=number_of_sets(factor * value_of(side.h_cube_root_W_m2K43, values), sets),
+        gas_rise=number_of_sets(value_of(side.gas_rise_K, values), sets),
+        gas_rise_time=number_of_sets(value_of(side.gas_rise_time_s, values), sets),
     )
 
 
 def lower_exposure(
-    experiment: SlabExperiment, share: FloatArray, arrays: Material, values: Values, sets: int = 1
+    experiment: SlabExperiment,
+    share: FloatArray,
+    arrays: Material,
+    values: Values,
+    sets: int = 1,
 ) -> Exposure:
     """Return the exposure of a sample, whose front layer has these mass fractions, as arrays.
 
@@ -44,7 +48,7 @@ def lower_exposure(
     depth = _mixing_depth(experiment, share, arrays, values)
     fixed = experiment.derived("exposure", _fixed_exposure) if sets == 1 else None
     found = fixed or _exposure(experiment, values, sets)
-    return found._replace(mixing_depth=number(depth, sets))
+    return found._replace(mixing_depth=number_of_sets(depth, sets))
 
 
 def _fixed_exposure(experiment: SlabExperiment) -> Exposure | None:
@@ -73,22 +77,22 @@ def _exposure(experiment: SlabExperiment, values: Values, sets: int) -> Exposure
         front=_surface(front, values, sets),
         back=_surface(back, values, sets, losses),
         schedule=lower_schedule(experiment, values, sets),
-        rise_time=number(value_of(front.rise_time_s, values), sets),
-        drift=number(value_of(front.drift_1_s, values), sets),
-        drift_time=number(value_of(front.drift_time_s, values), sets),
-        back_emissivity=number(losses * value_of(back.emissivity, values), sets),
-        foil_capacity=number(capacity, sets),
-        contact_resistance=number(contact, sets),
+        rise_time=number_of_sets(value_of(front.rise_time_s, values), sets),
+        drift=number_of_sets(value_of(front.drift_1_s, values), sets),
+        drift_time=number_of_sets(value_of(front.drift_time_s, values), sets),
+        back_emissivity=number_of_sets(losses * value_of(back.emissivity, values), sets),
+        foil_capacity=number_of_sets(capacity, sets),
+        contact_resistance=number_of_sets(contact, sets),
         back_absorbs=sample.back_absorbs,
-        surface_share=number(value_of(sample.surface_share, values), sets),
-        gas_heat=number(value_of(sample.gas_specific_heat_J_kgK, values), sets),
-        mixing_depth=number(0.0, sets),
-        emissivity_change=number(value_of(sample.emissivity_change, values), sets),
-        backing_mass=number(0.0, sets),
-        backing_thickness=number(0.0, sets),
-        backing_cells=number(0.0, sets),
-        edge_exchange=number(exchange, sets),
-        edge_temperature=number(edge_gas, sets),
+        surface_share=number_of_sets(value_of(sample.surface_share, values), sets),
+        gas_heat=number_of_sets(value_of(sample.gas_specific_heat_J_kgK, values), sets),
+        mixing_depth=number_of_sets(0.0, sets),
+        emissivity_change=number_of_sets(value_of(sample.emissivity_change, values), sets),
+        backing_mass=number_of_sets(0.0, sets),
+        backing_thickness=number_of_sets(0.0, sets),
+        backing_cells=number_of_sets(0.0, sets),
+        edge_exchange=number_of_sets(exchange, sets),
+        edge_temperature=number_of_sets(edge_gas, sets),
     )
 
 
@@ -118,12 +122,12 @@ def _mixing_depth(
         return value_of(depth, values)
     volume = share * arrays.specific_volume
     T = value_of(experiment.sample.initial_temperature_K, values)
-    k = total(volume * at_temperature(arrays.conductivity, T)) / total(volume)
-    rho_c = total(share * at_temperature(arrays.specific_heat, T)) / total(volume)
+    k = total(volume * properties_at(arrays.conductivity, T)) / total(volume)
+    rho_c = total(share * properties_at(arrays.specific_heat, T)) / total(volume)
     return value_of(depth.cell_size_factor, values) * np.sqrt(k / rho_c)
 
 
-def at_temperature(tables: FloatArray, T: Value) -> FloatArray:
+def properties_at(tables: FloatArray, T: Value) -> FloatArray:
     """Return the properties of all components at T, shape (components, sets)."""
     if tables.shape[1] == 1:
         return tables[:, 0]

@@ -10,7 +10,7 @@ import numpy as np
 from pyrofit.solver import arrays
 from pyrofit.solver.arrays import FloatArray, IntArray, Numerics, Status
 from pyrofit.solver.curves import Request, Runs
-from pyrofit.solver.lower_experiment import Layer, cells_of
+from pyrofit.solver.lower_experiment import LoweredLayer, share_out_cells
 from pyrofit.solver.lower_property import total
 from pyrofit.solver.outputs import BACK, FRONT, HEAT, INSIDE, MASS, RATE, THICKNESS
 from pyrofit.solver.probes import depths_of, follows_of, probes_of
@@ -30,7 +30,7 @@ EARLY = {RATE, HEAT, MASS}
 class Case(NamedTuple):
     """A gasification experiment as the kernel takes it, the sets last."""
 
-    layers: tuple[Layer, ...]
+    layers: tuple[LoweredLayer, ...]
     cells: IntArray
     """Number of cells, shape (sets,)."""
     T_start: FloatArray
@@ -59,7 +59,7 @@ def mapped(change: Callable[[FloatArray], FloatArray], part: Any) -> Any:
     return part
 
 
-def repeated(case: Case, copies: int) -> Case:
+def repeated_case(case: Case, copies: int) -> Case:
     """Return a case of several copies of its sets, one after the other."""
     if copies == 1:
         return case
@@ -68,7 +68,7 @@ def repeated(case: Case, copies: int) -> Case:
     return many._replace(cells=case.cells[index])
 
 
-def march(case: Case, asked: Mapping[str, Request], numerics: Numerics, threads: int) -> Runs:
+def run_kernel(case: Case, asked: Mapping[str, Request], numerics: Numerics, threads: int) -> Runs:
     """Run the kernel, sets of about the same number of cells side by side."""
     work = _work_of(case, asked, numerics)
     sets = case.cells.size
@@ -181,7 +181,7 @@ def _alone(work: _Work, index: IntArray | None = None) -> Found:
         case, end = mapped(lambda a: a.take(index, axis=-1), (case, end))
         at, cells = at[index], cells[index]
         depths = arrays.Probes(*(depth[index] for depth in depths))
-    start, empty = cells_of(case.layers, cells, LANES)
+    start, empty = share_out_cells(case.layers, cells, LANES)
     signals, outcome = slab(
         (0,),
         (0,) * LANES,
@@ -203,7 +203,7 @@ def _together(work: _Work, index: IntArray) -> Found:
     case = work.case
     filled = np.append(index, np.repeat(index[-1:], -index.size % LANES))
     layers, volumes = mapped(lambda a: a.take(filled, axis=-1), (case.layers, case.volumes))
-    start, empty = cells_of(layers, case.cells[filled])
+    start, empty = share_out_cells(layers, case.cells[filled])
     depths = arrays.Probes(*(depth[filled] for depth in work.depths))
     probes = probes_of(depths, start, empty, volumes)
     T_start, description, end = mapped(

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.analysis.best_sets import ends
-from pyrofit.analysis.good_sets import GOOD, explore, thinned
+from pyrofit.analysis.good_sets import GOOD, farthest_apart, walk_about
 from pyrofit.analysis.uses import FITTED
 from pyrofit.config import Study, TermSpec
 from pyrofit.errors import CostError
@@ -121,8 +121,8 @@ def good(study: Study, results: Results, found: pd.DataFrame, scores: pd.DataFra
         best = found.iloc[lowest]
         rng = np.random.default_rng(seed_for(study.seed, cost, "family"))
         start = best[list(problem.names)].to_numpy(float)
-        costs, sets = explore(problem, start, GOOD * float(values[lowest]), rng)
-        chosen = thinned((sets - problem.lower) / (problem.upper - problem.lower))
+        costs, sets = walk_about(problem, start, GOOD * float(values[lowest]), rng)
+        chosen = farthest_apart((sets - problem.lower) / (problem.upper - problem.lower))
         about = {
             "cost_function": cost,
             "cost": costs[chosen],

@@ -33,7 +33,7 @@ parameter <effect>_<strength> to imp.estimate then.
 """
 
 
-def diagnose(study: Study, results: Results, tell: Tell, processes: int = 1) -> Diagnosis:
+def diagnose_study(study: Study, results: Results, tell: Tell, processes: int = 1) -> Diagnosis:
     """Diagnose a study from its measurements; write ``diagnosis``, return its record.
 
     Raises
@@ -68,7 +68,7 @@ def diagnose(study: Study, results: Results, tell: Tell, processes: int = 1) -> 
 def _key(study: Study, measurements: Measurements) -> str:
     """Return a digest of all that the fits of a diagnosis are made of."""
     content = {
-        "study": dependencies.diagnose(study),
+        "study": dependencies.diagnose_slice(study),
         "source": source_fingerprint("pyrofit.stages.diagnose"),
         "series": {" ".join(key): _digest_of(measurements[key]) for key in sorted(measurements)},
     }

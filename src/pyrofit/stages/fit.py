@@ -18,7 +18,7 @@ from pyrofit.results.files import Results, write_csv
 from pyrofit.results.record import write_record
 from pyrofit.results.recorded import load
 from pyrofit.results.searches import Descent, End, Repetition, Starts
-from pyrofit.running.shares import at_once, parts
+from pyrofit.running.shares import at_once, parts_of_repetitions
 from pyrofit.seeds import seed_for
 from pyrofit.solver.arrays import FloatArray, Status
 from pyrofit.stages.progress import Told
@@ -63,7 +63,7 @@ def fit_kinetics(study: Study, results: Results) -> None:
     write_csv(results.kinetics("history.csv.gz"), history)
     write_csv(results.kinetics("convergence.csv"), convergence(history))
     lowest = kinetics.Searched(cost=best_of(history, problem)[0], calls=len(history))
-    found = kinetics.Fit(
+    found = kinetics.KineticsFit(
         cost=cost,
         parameters=fitted,
         optimiser=optimiser,
@@ -98,7 +98,7 @@ def repeat(study: Study, results: Results, cost: str, repetitions: Sequence[int]
     Some run side by side, then the next ones: as many as are fastest at once.
     """
     problem = imp_problem(study, results, cost)
-    side_by_side = parts(list(repetitions), at_once(study))
+    side_by_side = parts_of_repetitions(list(repetitions), at_once(study))
     if len(side_by_side) == 1:
         _search(study, results, problem, cost, side_by_side[0])
         return
@@ -175,7 +175,7 @@ def optimise(study: Study, results: Results, cost: str, optimiser: str) -> None:
 def descent(study: Study, results: Results, cost: str) -> None:
     """Run least squares from SCE-UA's best set, to see whether that is a local minimum."""
     problem = imp_problem(study, results, cost)
-    best = best_sets(study, results)[cost]
+    best = best_set_of_each_cost(study, results)[cost]
     end = descend(problem, np.array([best[name] for name in problem.names]))
     write_record(results.descent(cost), Descent(cost_function=cost, end=_end(problem, end)))
 
@@ -202,9 +202,9 @@ def collect(study: Study, results: Results) -> None:
     sweep(results)
 
 
-def best_sets(study: Study, results: Results) -> dict[str, dict[str, float]]:
+def best_set_of_each_cost(study: Study, results: Results) -> dict[str, dict[str, float]]:
     """Return the best parameter set of each cost function, SI units."""
-    summary = searches.summary(study, results)
+    summary = searches.best_of_repetitions(study, results)
     sets = {}
     for cost in study.imp.costs:
         group = summary[summary["cost_function"] == cost]

@@ -15,7 +15,7 @@ from pyrofit.estimate.pose_likelihood import pose_likelihood
 from pyrofit.numerics import linear
 from pyrofit.results import goodness, identification, kinetics, searches
 from pyrofit.results.files import Results, write_csv
-from pyrofit.results.identification import Channel, Noise
+from pyrofit.results.identification import Channel, StageNoise
 from pyrofit.results.recorded import load
 from pyrofit.stages.imp_likelihood import ends_of_searches, imp_likelihood
 from pyrofit.stages.kinetic_curves import write_curves
@@ -36,7 +36,7 @@ def identify_kinetics(study: Study, results: Results) -> None:
     """
     asked, fixed = of_kinetics(study), study.fixed_values()
     measurements = load(study, results)
-    known = kinetics.ends(study, results)
+    known = kinetics.read_ends(study, results)
     likelihood = pose_likelihood(study, asked, measurements, fixed, known)
     starts = [likelihood.scaled(np.array([end[n] for n in asked.names])) for end in known]
     _write(results, "kinetics", likelihood, identify(likelihood, starts))
@@ -155,7 +155,7 @@ def _sets(
 ) -> pd.DataFrame:
     """Return chi-square of the optimisers' sets, and their distance from the optimum in sd."""
     names = list(study.imp.estimate)
-    summary = searches.summary(study, results)
+    summary = searches.best_of_repetitions(study, results)
     rows = []
     for cost in study.imp.costs:
         group = summary[summary["cost_function"] == cost]
@@ -163,7 +163,9 @@ def _sets(
             BEST: group.iloc[int(group["cost"].to_numpy().argmin())],
             MEAN: group[names].mean(),
             **{
-                f"{optimiser.words} best": searches.starts(study, results, cost, key)[0].parameters
+                f"{optimiser.words} best": searches.read_starts(study, results, cost, key)[
+                    0
+                ].parameters
                 for key, optimiser in OPTIMISERS.items()
             },
         }
@@ -175,7 +177,7 @@ def _sets(
     return pd.DataFrame(rows)
 
 
-def _noise(likelihood: Likelihood, found: Identification) -> Noise:
+def _noise(likelihood: Likelihood, found: Identification) -> StageNoise:
     residuals = likelihood.split(likelihood.residuals(found.optimum.x))
     channels = [
         Channel(
@@ -198,7 +200,7 @@ def _noise(likelihood: Likelihood, found: Identification) -> Noise:
             likelihood.problem.picks, likelihood.noise, residuals, strict=True
         )
     ]
-    return Noise(
+    return StageNoise(
         channels=channels,
         chi2=found.posterior.chi2,
         freedom=found.posterior.freedom,

@@ -41,7 +41,7 @@ def ends_of_searches(study: Study, results: Results) -> Iterator[dict[str, float
     names = list(study.imp.estimate)
     for cost in study.imp.costs:
         for optimiser in OPTIMISERS:
-            for start in searches.starts(study, results, cost, optimiser):
+            for start in searches.read_starts(study, results, cost, optimiser):
                 yield {name: start.parameters[name] for name in names}
-    for values in searches.summary(study, results)[names].to_numpy(float).tolist():
+    for values in searches.best_of_repetitions(study, results)[names].to_numpy(float).tolist():
         yield dict(zip(names, values, strict=True))

@@ -68,20 +68,20 @@ def _sets(study: Study, results: Results, fitted: Values) -> Sets:
     given = study.fixed_values()
     of_set = dict.fromkeys(kinetics.labels(study), fitted)
     if LOWEST in of_set:
-        of_set[LOWEST] = kinetics.fit(study, results).parameters
+        of_set[LOWEST] = kinetics.read_fit(study, results).parameters
     return {
         label: (study.material_with(FITTED if label == LOWEST else label), {**given, **values})
         for label, values in of_set.items()
     }
 
 
-def _reactions(material: Material, values: Values) -> dict[str, kinetics.Reaction]:
+def _reactions(material: Material, values: Values) -> dict[str, kinetics.ReactionOfSet]:
     """Return A, E, n and the virgin mass fraction of the reactant, by reaction."""
     names = list(material.components)
     share = fractions(material.composition, names, values)[:, 0]
     reactions = material.reactions
     return {
-        name: kinetics.Reaction(
+        name: kinetics.ReactionOfSet(
             A_1_s=float(rate_factor(reactions[name], values)),
             E_J_mol=value_of(reactions[name].E_J_mol, values),
             order=value_of(reactions[name].order, values),

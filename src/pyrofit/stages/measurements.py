@@ -5,7 +5,7 @@ import pandas as pd
 
 from pyrofit.analysis.closure import closure_lines
 from pyrofit.config import Study, true_description
-from pyrofit.data.noise import draw
+from pyrofit.data.noise import draw_noise
 from pyrofit.errors import DataError
 from pyrofit.experiments import kind_of
 from pyrofit.model.signal import Noise
@@ -105,7 +105,7 @@ def with_noise(
     if request.temperature_K is not None:
         columns["temperature_K"] = request.temperature_K
     correlation = noise.correlation(clean.size)
-    columns[quantity.column] = clean + noise.sd * draw(correlation, rng)
+    columns[quantity.column] = clean + noise.sd * draw_noise(correlation, rng)
     if noise.sd > 0.0:
         columns[quantity.uncertainty_column] = np.full(clean.size, noise.sd)
     return pd.DataFrame(columns)

@@ -9,11 +9,11 @@ from pyrofit.logs import Tell
 from pyrofit.results import goodness
 from pyrofit.results.files import Results
 from pyrofit.scheme.choice import choose_scheme
-from pyrofit.scheme.fit import Setting
+from pyrofit.scheme.fit import SchemeSetting
 from pyrofit.scheme.records import records_of
-from pyrofit.scheme.settings import Settings
+from pyrofit.scheme.settings import SchemeSettings
 
-SETTINGS = Settings()
+SETTINGS = SchemeSettings()
 BETTER = 0.8
 """Error of predictions over that of the study's reactions, below which others are offered."""
 
@@ -23,7 +23,7 @@ def more_reactions(
     results: Results,
     measurements: Measurements,
     tell: Tell,
-    settings: Settings = SETTINGS,
+    settings: SchemeSettings = SETTINGS,
 ) -> Iterator[str]:
     """Choose a reaction scheme where a fit misses its masses; yield a sentence on its gain.
 
@@ -39,7 +39,7 @@ def more_reactions(
         records = tuple(records_of(study, measurements, settings.points))
     except StudyError:
         return
-    found = choose_scheme(Setting(study, measurements, records, settings), tell)
+    found = choose_scheme(SchemeSetting(study, measurements, records, settings), tell)
     ours, theirs = found.own.left_out_rms, found.chosen.left_out_rms
     words = found.chosen.fitted.posed.words
     if theirs > BETTER * ours:

@@ -16,24 +16,27 @@ from pyrofit.results.files import Results, write_csv
 from pyrofit.results.recorded import load
 from pyrofit.simulate import solver_errors
 from pyrofit.solver.arrays import FloatArray, Values
-from pyrofit.stages.fit import best_sets, fixed_for_imp
+from pyrofit.stages.fit import best_set_of_each_cost, fixed_for_imp
 from pyrofit.stages.unmeasured import check_finished, predict_unmeasured
 
 
 def sets_of(study: Study, results: Results) -> dict[str, dict[str, float]]:
     """Return the sets to predict: estimates, best sets of each optimiser, published ones."""
     found = identification.estimates(study, results)["estimate"]
-    sets = {ESTIMATES: {str(n): float(v) for n, v in found.items()}, **best_sets(study, results)}
+    sets = {
+        ESTIMATES: {str(n): float(v) for n, v in found.items()},
+        **best_set_of_each_cost(study, results),
+    }
     for key, optimiser in OPTIMISERS.items():
         for cost in study.imp.costs:
-            start = searches.starts(study, results, cost, key)[0]
+            start = searches.read_starts(study, results, cost, key)[0]
             sets[f"{cost} {optimiser.words}"] = start.parameters
     for cost, values in published_sets(study).items():
         sets[f"{cost} published"] = values
     return sets
 
 
-def predict(study: Study, results: Results) -> None:
+def predict_sets(study: Study, results: Results) -> None:
     """Simulate every set at every experiment to predict; write ``curves.csv``, ``scores.csv``.
 
     Curves of unmeasured quantities go to ``unmeasured.csv``.

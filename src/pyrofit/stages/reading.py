@@ -11,7 +11,7 @@ from pyrofit.analysis.copied_records import notes_on_copies
 from pyrofit.analysis.differing_repeats import notes_on_repeats
 from pyrofit.config import Study, TermSpec
 from pyrofit.config.keys.study import IN_MEMORY
-from pyrofit.data.csvfile import Table, read_table
+from pyrofit.data.csvfile import FileTable, read_table
 from pyrofit.data.download import FOLDER_VARIABLE
 from pyrofit.data.fetch import locate, store
 from pyrofit.data.series import Measurement, read_series
@@ -149,7 +149,7 @@ def _missing(study: Study) -> list[str]:
     ]
 
 
-def _read(experiment: Experiment, label: str, read: Callable[[Path], Table]) -> Read:
+def _read(experiment: Experiment, label: str, read: Callable[[Path], FileTable]) -> Read:
     signal = experiment.signals[label]
     path = _locate(signal.file)
     found: Measurement = read_series(

@@ -93,7 +93,7 @@ def scorer_of(
     return Scorer(posed([*specs, *study.imp.channels]), tuple(measures), likelihood), []
 
 
-def scored(scorer: Scorer, sets: FloatArray, cores: int) -> FloatArray:
+def scored_sets(scorer: Scorer, sets: FloatArray, cores: int) -> FloatArray:
     """Return the scores of all sets; they do not depend on the number of processes."""
     size = max(AT_ONCE, -(-len(sets) // MOST_PIECES))
     starts = range(0, len(sets), size)

@@ -26,7 +26,7 @@ if (
 from pyrofit.config import as_study, digest
 from pyrofit.config.expand.programs import externals, program_files
 from pyrofit.config.check.unmeasured import unmeasured
-from pyrofit.config.check.unusual import unusual
+from pyrofit.config.check.unusual import unusual_values
 from pyrofit.discovery import added, loaded
 from pyrofit.errors import PyrofitError
 from pyrofit.provenance import STUDY as STUDY_MODULES
@@ -37,7 +37,7 @@ from pyrofit.results.kinetics import heats_shown
 from pyrofit.running import causes, shares
 from pyrofit.estimate.calls import calls_of_jobs
 from pyrofit.running.frozen import freeze, frozen_study
-from pyrofit.running.given import DEFAULT, from_files, from_workflow
+from pyrofit.running.given import DEFAULT, study_of_files, from_workflow
 from pyrofit.running.lock import end_run, join_run, start_run
 from pyrofit.running.terminal import FOR_USER, show_work, take_over
 from pyrofit.running.work import WorkDone
@@ -65,7 +65,7 @@ try:
     changes = dict(workflow.config_settings.config) if OWN else dict(config)
     # How repetitions are shared out to jobs belongs to the run, not to the study.
     per_job = changes.pop(shares.KEY, None)
-    given = (from_files if OWN else from_workflow)(workflow.configfiles, changes)
+    given = (study_of_files if OWN else from_workflow)(workflow.configfiles, changes)
     if workflow.is_main_process:
         study = as_study(given.keys, given.source)
         check_measurements(study, given.source, macfp=False)
@@ -75,7 +75,10 @@ try:
     # A job of a cluster must share out as the process that submitted it.
     local = workflow.is_main_process and workflow.local_exec
     cores = workflow.resource_settings.cores if local else None
-    SHARES = [[f"{n:02d}" for n in job] for job in shares.shares(study, per_job, cores)]
+    SHARES = [
+        [f"{n:02d}" for n in job]
+        for job in shares.jobs_of_repetitions(study, per_job, cores)
+    ]
     if not workflow.is_main_process:
         join_run(ROOT)
     elif OWN:
@@ -115,7 +118,7 @@ onstart:
     try:
         if told := start_run(ROOT):
             print(told, file=sys.stderr)
-        for sentence in unusual(study):
+        for sentence in unusual_values(study):
             print(f"warning: {given.source}: {sentence}", file=sys.stderr)
         freeze(study, STUDY)
         if workflow.local_exec:

@@ -17,14 +17,14 @@ from pyrofit_blind_test.benchmark.plain import catalogue_table, model_keys
 from pyrofit_blind_test.benchmark.score import ANSWER
 from pyrofit_blind_test.detectability import detectability
 from pyrofit_blind_test.places import Places, folder_of
-from pyrofit_blind_test.plan import Case, cases_of
+from pyrofit_blind_test.plan import TwinPlan, cases_of
 from pyrofit_blind_test.recovery import fitted_strengths
 from pyrofit_blind_test.setting import Setting, read_setting
-from pyrofit_blind_test.table import leading
-from pyrofit_blind_test.twin import describe, make_twin, read_twin, write_twin
+from pyrofit_blind_test.table import leading_effects
+from pyrofit_blind_test.twin import describe_twin, make_twin, read_twin, write_twin
 
 Row = dict[str, Any]
-Size = Callable[[Setting, Case, Places], float]
+Size = Callable[[Setting, TwinPlan, Places], float]
 HERE = Path(__file__).parent
 TRUTH = ("set", "source", "kind", "effect", "strength", "size_sd", "also_right")
 _MODEL = "The model of this data set, SI units. See README.md of the benchmark."
@@ -40,9 +40,9 @@ def answer_of(folder: Path, name: str) -> Path:
     return folder / "answers" / f"{name}.csv"
 
 
-def size_of(setting: Setting, case: Case, places: Places) -> float:
+def size_of(setting: Setting, case: TwinPlan, places: Places) -> float:
     """Return by how many standard deviations of the noise the best base model misses the truth."""
-    _, truth = describe(setting, case)
+    _, truth = describe_twin(setting, case)
     study, series = read_twin(places, case.id)
     return detectability(truth, series, {n: prior.sd for n, prior in study.known.items()}).size
 
@@ -110,7 +110,7 @@ def _write_table(path: Path, rows: Sequence[Row], columns: Sequence[str]) -> Non
     write_csv(path, table.sort_values("set", kind="stable"))
 
 
-def _write_set(folder: Path, setting: Setting, case: Case, places: Places) -> None:
+def _write_set(folder: Path, setting: Setting, case: TwinPlan, places: Places) -> None:
     """Write study, measurements and plain model of a data set, which is computed if missing."""
     if not (places.twin(case.id) / "study.yaml").is_file():
         write_twin(places, make_twin(setting, case))
@@ -120,7 +120,7 @@ def _write_set(folder: Path, setting: Setting, case: Case, places: Places) -> No
     write_text(target / "model.yaml", as_yaml(model_keys(study), _MODEL))
 
 
-def _truth(case: Case) -> Iterator[Row]:
+def _truth(case: TwinPlan) -> Iterator[Row]:
     """Yield a row for each hidden effect, or one without.
 
     An effect that another code computes in another form has no true strength.
@@ -140,7 +140,7 @@ def answer_rows(found: Row) -> list[Row]:
     Intervals are the wide ones, where there are some.
     """
     rows = []
-    for effect in leading(found["verdict"]):
+    for effect in leading_effects(found["verdict"]):
         (parameter,) = known_effects()[effect].strength
         given = fitted_strengths(found).get(f"{effect}_{parameter}", {})
         wide = "_wide" if given.get("low_wide") is not None else ""

@@ -21,7 +21,7 @@ from pyrofit_exchange.fds.agreement import (
     levels,
     slab_agreement,
 )
-from pyrofit_exchange.fds.export import Written, decks, export, text_of
+from pyrofit_exchange.fds.export import WrittenDeck, decks, export, text_of_file
 from pyrofit_exchange.fds.read import read_devc, read_tga
 from pyrofit_exchange.fds.run import LIMIT_S, run_deck, version_text
 from pyrofit_exchange.fds.versions import FdsError, version_of
@@ -42,7 +42,7 @@ class Checked(NamedTuple):
     curves: pd.DataFrame | None
 
 
-def check(
+def check_decks(
     study: Study,
     chosen: ParameterSet,
     executable: Path | None,
@@ -83,7 +83,7 @@ def check(
     if curves:
         write_csv(folder / CURVES, pd.concat(curves, ignore_index=True))
     first = f"FDS {text}, set '{chosen.label}'."
-    _write(folder, entries, [first, "", *table(entries)])
+    _write(folder, entries, [first, "", *markdown_of_entries(entries)])
     export(study, chosen, version, folder / DECKS, [f"proof, FDS {text}:", *sentences(entries)])
     return entries
 
@@ -93,12 +93,12 @@ def _write(folder: Path, entries: list[Entry], lines: Iterable[str]) -> None:
     write_text(folder / PAGE, "# FDS beside pyrofit\n\n" + "\n".join(lines) + "\n")
 
 
-def run_one(one: Written, executable: Path, limit_s: float, tell: Tell) -> Checked:
+def run_one(one: WrittenDeck, executable: Path, limit_s: float, tell: Tell) -> Checked:
     """Run a deck and compare; a run that fails is an entry with its error."""
     name = one.deck.name
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary)
-        run = run_deck(executable, text_of(one.deck, []), name, folder, limit_s)
+        run = run_deck(executable, text_of_file(one.deck, []), name, folder, limit_s)
         try:
             if run.why:
                 raise FdsError(run.why)
@@ -109,10 +109,10 @@ def run_one(one: Written, executable: Path, limit_s: float, tell: Tell) -> Check
     entries = [_entry(one, agreement, run.seconds) for agreement in agreements]
     for line in sentences(entries):
         tell(line)
-    return Checked(entries, beside(one, found))
+    return Checked(entries, rows_beside(one, found))
 
 
-def beside(one: Written, found: pd.DataFrame) -> pd.DataFrame:
+def rows_beside(one: WrittenDeck, found: pd.DataFrame) -> pd.DataFrame:
     """Return the curves of FDS and pyrofit, a row for each point of FDS, SI units.
 
     Columns: ``experiment``, ``signal``, ``time_s`` or ``temperature_K``, ``fds``, ``pyrofit``.
@@ -131,7 +131,7 @@ def beside(one: Written, found: pd.DataFrame) -> pd.DataFrame:
     return pd.concat(parts, ignore_index=True)
 
 
-def _compared(one: Written, folder: Path) -> tuple[pd.DataFrame, list[Agreement]]:
+def _compared(one: WrittenDeck, folder: Path) -> tuple[pd.DataFrame, list[Agreement]]:
     """Return the curves of FDS and how far they are from pyrofit's.
 
     Raises
@@ -154,7 +154,7 @@ def _compared(one: Written, folder: Path) -> tuple[pd.DataFrame, list[Agreement]
     return found, heated_agreement(found, one.curve, accepted)
 
 
-def _entry(one: Written, agreement: Agreement, seconds: float) -> Entry:
+def _entry(one: WrittenDeck, agreement: Agreement, seconds: float) -> Entry:
     measure, most = agreement.level
     late = agreement.burnout_s
     return {
@@ -173,7 +173,7 @@ def _entry(one: Written, agreement: Agreement, seconds: float) -> Entry:
     }
 
 
-def _failed(one: Written, why: str, seconds: float) -> Entry:
+def _failed(one: WrittenDeck, why: str, seconds: float) -> Entry:
     empty = dict.fromkeys(
         ("signal", "rms_over_mean", "burnout_s", "rms_si", "largest_si", "measure", "accepted")
     )
@@ -191,7 +191,7 @@ def _late(entry: Entry) -> str:
     return "" if entry["burnout_s"] is None else f"{entry['burnout_s']:+.1f}"
 
 
-def table(entries: list[Entry]) -> list[str]:
+def markdown_of_entries(entries: list[Entry]) -> list[str]:
     """Return the entries as lines of a Markdown table."""
     rows = ["experiment | signal | rms over mean, % | burn-out, s | verdict", "---|---|---|---|---"]
     for e in entries:

@@ -17,7 +17,7 @@ from pyrofit_exchange.fds.heated import heated_deck
 from pyrofit_exchange.fds.include import all_remarks, heading, include
 from pyrofit_exchange.fds.layers import identifiers
 from pyrofit_exchange.fds.namelists import comment_line, write_all
-from pyrofit_exchange.fds.predicted import Predicted, predict_heated, predict_slab
+from pyrofit_exchange.fds.predicted import PredictedByPyrofit, predict_heated, predict_slab
 from pyrofit_exchange.fds.slab import Deck, slab_deck
 from pyrofit_exchange.fds.versions import Version
 from pyrofit_exchange.sets import ParameterSet
@@ -27,7 +27,7 @@ LEAST_LAST_K, BEHIND_K = 800.0, 30.0
 """A TGA ends at this temperature, or so much behind the end of the reactions."""
 
 
-class Written(NamedTuple):
+class WrittenDeck(NamedTuple):
     """A deck of an experiment with pyrofit's curve of the same.
 
     Parameters
@@ -48,7 +48,7 @@ class Written(NamedTuple):
     burn_out_s: float
 
 
-def decks(study: Study, chosen: ParameterSet, version: Version) -> list[Written]:
+def decks(study: Study, chosen: ParameterSet, version: Version) -> list[WrittenDeck]:
     """Return the decks of a study: every slab, and every heating rate once."""
     names = identifiers(list(study.experiments))
     found, rates = [], set()
@@ -62,16 +62,18 @@ def decks(study: Study, chosen: ParameterSet, version: Version) -> list[Written]
     return found
 
 
-def _slab(study: Study, chosen: ParameterSet, version: Version, name: str, chid: str) -> Written:
+def _slab(
+    study: Study, chosen: ParameterSet, version: Version, name: str, chid: str
+) -> WrittenDeck:
     experiment = study.experiments[name]
     assert isinstance(experiment, SlabExperiment)
     material, values = chosen.material, chosen.values
     predicted = predict_slab(experiment, material, values, study.accuracy)
     deck = slab_deck(chid, experiment, material, values, version, predicted)
-    return Written(name, deck, slab_curve(predicted), predicted.burn_out_s)
+    return WrittenDeck(name, deck, slab_curve(predicted), predicted.burn_out_s)
 
 
-def slab_curve(predicted: Predicted) -> pd.DataFrame:
+def slab_curve(predicted: PredictedByPyrofit) -> pd.DataFrame:
     """Return the curves of a slab as a table."""
     columns = {
         "time_s": predicted.time_s,
@@ -83,7 +85,9 @@ def slab_curve(predicted: Predicted) -> pd.DataFrame:
     return pd.DataFrame(columns)
 
 
-def _heated(study: Study, chosen: ParameterSet, version: Version, name: str, chid: str) -> Written:
+def _heated(
+    study: Study, chosen: ParameterSet, version: Version, name: str, chid: str
+) -> WrittenDeck:
     experiment = study.experiments[name]
     assert isinstance(experiment, HeatedExperiment)
     material, values = chosen.material, chosen.values
@@ -93,7 +97,7 @@ def _heated(study: Study, chosen: ParameterSet, version: Version, name: str, chi
     done = float(T[np.flatnonzero(mass - mass[-1] > 2e-3)[-1]]) + BEHIND_K
     last = max(LEAST_LAST_K, 10.0 * np.ceil(0.1 * done))
     deck = heated_deck(chid, experiment, material, values, version, last)
-    return Written(name, deck, _heated_curve(T, mass, last), float("nan"))
+    return WrittenDeck(name, deck, _heated_curve(T, mass, last), float("nan"))
 
 
 def _heated_curve(T: FloatArray, mass: FloatArray, last: float) -> pd.DataFrame:
@@ -101,7 +105,7 @@ def _heated_curve(T: FloatArray, mass: FloatArray, last: float) -> pd.DataFrame:
     return pd.DataFrame({"temperature_K": T[kept], MASS_FRACTION: mass[kept]})
 
 
-def text_of(deck: Deck, heading_lines: list[str]) -> str:
+def text_of_file(deck: Deck, heading_lines: list[str]) -> str:
     """Return a file: heading, inexact terms, and the lines."""
     said = [*heading_lines]
     said += [
@@ -133,17 +137,17 @@ def export(
     first = heading(study, chosen, version)
     written = decks(study, chosen, version)
     material = include(study, chosen, version)
-    write_text(folder / MATERIAL, text_of(material, [*first, *proof]))
+    write_text(folder / MATERIAL, text_of_file(material, [*first, *proof]))
     for one in written:
         brief = [*first[:4], f"{one.deck.title}", *_settings(one)]
-        write_text(folder / f"{one.deck.name}.fds", text_of(one.deck, brief))
+        write_text(folder / f"{one.deck.name}.fds", text_of_file(one.deck, brief))
         write_csv(folder / f"{one.deck.name}_pyrofit.csv", one.curve)
     write_json(folder / SUMMARY, _summary(study, chosen, version, written, material))
     remarks = all_remarks([material, *(one.deck for one in written)])
     return [f"{remark.line} [{', '.join(of)}]" for remark, of in remarks.items()]
 
 
-def _settings(one: Written) -> list[str]:
+def _settings(one: WrittenDeck) -> list[str]:
     """Return the comment on how a deck is solved."""
     if not one.deck.step_s:
         return ["TGA_ANALYSIS: one temperature, FDS's own steps"]
@@ -156,7 +160,7 @@ def _settings(one: Written) -> list[str]:
 
 
 def _summary(
-    study: Study, chosen: ParameterSet, version: Version, written: list[Written], material: Deck
+    study: Study, chosen: ParameterSet, version: Version, written: list[WrittenDeck], material: Deck
 ) -> Mapping[str, Any]:
     def of(deck: Deck) -> dict[str, Any]:
         return {"remarks": [remark._asdict() for remark in deck.remarks]}

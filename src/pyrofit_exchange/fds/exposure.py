@@ -34,7 +34,7 @@ from pyrofit.solver.arrays import (
 )
 from pyrofit.solver.schedule import lower_schedule
 from pyrofit_exchange.fds.materials import Values
-from pyrofit_exchange.fds.predicted import Predicted
+from pyrofit_exchange.fds.predicted import PredictedByPyrofit
 from pyrofit_exchange.fds.remarks import Remark
 
 STEP_S, CURVED = 0.01, 300
@@ -48,7 +48,7 @@ class Flux(NamedTuple):
     value_W_m2: FloatArray
 
 
-class Outside(NamedTuple):
+class FdsSurroundings(NamedTuple):
     """The surroundings of a slab in FDS's terms, SI units.
 
     Parameters
@@ -78,7 +78,7 @@ class Outside(NamedTuple):
     remarks: tuple[Remark, ...]
 
     @classmethod
-    def still(cls, T: float) -> "Outside":
+    def still(cls, T: float) -> "FdsSurroundings":
         """Return surroundings at one temperature [K], without any exchange."""
         flux = Flux(np.zeros(1), np.zeros(1))
         return cls(flux, np.zeros(1), 0.0, T, 0.0, 0.0, T, 0.0, ())
@@ -92,10 +92,10 @@ class Outside(NamedTuple):
 def surroundings(
     experiment: SlabExperiment,
     values: Values,
-    predicted: Predicted,
+    predicted: PredictedByPyrofit,
     emissivity: float,
     has_cube_root: bool,
-) -> Outside:
+) -> FdsSurroundings:
     """Return the surroundings of a slab in FDS's terms.
 
     Parameters
@@ -115,7 +115,7 @@ def surroundings(
     h = _front_h(experiment, values, schedule, predicted, remarks)
     flux, heater = _flux(experiment, values, schedule, predicted.end_s, (h, gas, emissivity))
     back = _back(experiment, values, schedule, predicted, has_cube_root, remarks)
-    return Outside(flux, heater, h, gas, *back, tuple(remarks))
+    return FdsSurroundings(flux, heater, h, gas, *back, tuple(remarks))
 
 
 def _mean(schedule: FloatArray, row: int, end_s: float) -> float:
@@ -134,7 +134,7 @@ def _front_h(
     experiment: SlabExperiment,
     values: Values,
     schedule: FloatArray,
-    predicted: Predicted,
+    predicted: PredictedByPyrofit,
     remarks: list[Remark],
 ) -> float:
     h = _mean(schedule, FRONT_H, predicted.end_s)
@@ -199,7 +199,7 @@ def _back(
     experiment: SlabExperiment,
     values: Values,
     schedule: FloatArray,
-    predicted: Predicted,
+    predicted: PredictedByPyrofit,
     has_cube_root: bool,
     remarks: list[Remark],
 ) -> tuple[float | None, float, float, float]:

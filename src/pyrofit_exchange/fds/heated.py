@@ -4,7 +4,7 @@ from pyrofit.model.heated import HeatedExperiment
 from pyrofit.model.material import Material
 from pyrofit.solver.lower import fractions
 from pyrofit_exchange.fds.gases import gas_around
-from pyrofit_exchange.fds.layers import Layer, layer_keys
+from pyrofit_exchange.fds.layers import FdsLayer, layer_keys
 from pyrofit_exchange.fds.materials import Options, Values, write_materials
 from pyrofit_exchange.fds.namelists import Namelist
 from pyrofit_exchange.fds.properties import CELSIUS_K
@@ -67,8 +67,10 @@ def heated_deck(
     return Deck(name, experiment.title or title, namelists, remarks)
 
 
-def virgin(material: Material, values: Values) -> Layer:
+def virgin(material: Material, values: Values) -> FdsLayer:
     """Return a thin layer of the virgin material."""
     names = list(material.components)
     share = fractions(material.composition, names, values)[:, 0]
-    return Layer({n: float(w) for n, w in zip(names, share, strict=True) if w > 0.0}, THICKNESS_M)
+    return FdsLayer(
+        {n: float(w) for n, w in zip(names, share, strict=True) if w > 0.0}, THICKNESS_M
+    )

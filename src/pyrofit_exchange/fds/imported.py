@@ -10,12 +10,12 @@ from pyrofit_exchange.fds.matl_line import (
     DERIVED,
     SURFACE_OXIDATION,
     Keys,
-    Layer,
     Matl,
+    VirginLayer,
     component,
-    count_of,
-    number_of,
     reactions_of,
+    reactions_of_line,
+    required_number,
 )
 from pyrofit_exchange.fds.namelists import unique
 from pyrofit_exchange.fds.parse import read_namelists
@@ -67,8 +67,8 @@ def import_fds(text: str, source: str, version: Version, surface: str = "") -> I
     shares = _composition(surfs, matls, source, surface)
     wanted = _reached(matls, shares)
     names = unique(wanted, 60)
-    density = 1.0 / sum(w / number_of(matls[n], "DENSITY") for n, w in shares.items())
-    layer = Layer(shares, density)
+    density = 1.0 / sum(w / required_number(matls[n], "DENSITY") for n, w in shares.items())
+    layer = VirginLayer(shares, density)
     remarks: list[str] = [
         f"MATL '{n}': not of the virgin material, nor formed; left out"
         for n in matls
@@ -161,7 +161,7 @@ def _ignored(matl: Matl, version: Version) -> Iterator[str]:
     for key in matl.keys:
         if key.partition("(")[0] not in KNOWN | DERIVED:
             yield f"MATL '{matl.name}': {key} is not known to pyrofit; left out"
-    if version.adjusts_heat and count_of(matl) and matl.one("ADJUST_H") is not False:
+    if version.adjusts_heat and reactions_of_line(matl) and matl.one("ADJUST_H") is not False:
         yield (
             f"MATL '{matl.name}': FDS {version.name} adjusts its heat of reaction to the "
             "enthalpies (ADJUST_H); pyrofit does not"

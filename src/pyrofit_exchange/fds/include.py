@@ -10,7 +10,7 @@ from pyrofit.provenance import source_fingerprint
 from pyrofit_exchange.fds.depth import absorption
 from pyrofit_exchange.fds.heated import virgin
 from pyrofit_exchange.fds.layers import layer_keys, own_layers
-from pyrofit_exchange.fds.materials import Lines, Options, write_materials
+from pyrofit_exchange.fds.materials import MaterialLines, Options, write_materials
 from pyrofit_exchange.fds.namelists import Item, Namelist
 from pyrofit_exchange.fds.remarks import Remark, once
 from pyrofit_exchange.fds.slab import Deck
@@ -65,7 +65,7 @@ def gas_line(heat: float) -> Namelist:
     return Namelist("REAC", items | {"HEAT_OF_COMBUSTION": heat or USUAL_HEAT_KJ_KG}, comment)
 
 
-def _described(study: Study, chosen: ParameterSet, lines: Lines) -> Iterator[Namelist]:
+def _described(study: Study, chosen: ParameterSet, lines: MaterialLines) -> Iterator[Namelist]:
     """Yield MATL and RAMP lines, with a comment on its parameters ahead of each component."""
     first = {of[0][0]: name for name, of in lines.parts.items()}
     for namelist in lines.namelists:
@@ -96,7 +96,7 @@ def _value(study: Study, values: Mapping[str, float], name: str) -> str:
 
 
 def _surface(
-    study: Study, chosen: ParameterSet, lines: Lines, slabs: Sequence[SlabExperiment]
+    study: Study, chosen: ParameterSet, lines: MaterialLines, slabs: Sequence[SlabExperiment]
 ) -> Namelist:
     material, values = chosen.material, chosen.values
     layers = [

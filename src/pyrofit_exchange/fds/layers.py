@@ -9,7 +9,7 @@ from pyrofit.model.material import Material
 from pyrofit.model.slab import Adhesive, Backing, Foil, Sample
 from pyrofit.solver.lower import fractions
 from pyrofit.solver.lower_experiment import thicknesses
-from pyrofit_exchange.fds.materials import OPAQUE_1_M, Lines, Values
+from pyrofit_exchange.fds.materials import OPAQUE_1_M, MaterialLines, Values
 from pyrofit_exchange.fds.namelists import Item, Namelist, unique
 
 FOIL, CONTACT = "FOIL", "CONTACT"
@@ -19,30 +19,30 @@ CONTACT_M = 1e-4
 """Thickness of the layer that stands for a contact resistance."""
 
 
-class Layer(NamedTuple):
+class FdsLayer(NamedTuple):
     """A layer: shares of mass by component or by identifier of a body, and its thickness [m]."""
 
     shares: dict[str, float]
     thickness_m: float
 
 
-def own_layers(sample: Sample, material: Material, values: Values) -> list[Layer]:
+def own_layers(sample: Sample, material: Material, values: Values) -> list[FdsLayer]:
     """Return sample, adhesive and boards, front first; none that has no thickness."""
     names = list(material.components)
     found = []
     for layer, size in zip(sample.layers, thicknesses(sample, values), strict=True):
         share = fractions(layer.composition or material.composition, names, values)[:, 0]
         of = {n: float(w) for n, w in zip(names, share, strict=True) if w > 0.0}
-        found.append(Layer(of, float(np.asarray(size))))
+        found.append(FdsLayer(of, float(np.asarray(size))))
     behind: list[Adhesive | Backing] = [] if sample.adhesive is None else [sample.adhesive]
     bodies = [(part.component, part.thickness_m) for part in [*behind, *sample.backing]]
-    found += [Layer({component: 1.0}, value_of(size, values)) for component, size in bodies]
+    found += [FdsLayer({component: 1.0}, value_of(size, values)) for component, size in bodies]
     return [layer for layer in found if layer.thickness_m > 0.0]
 
 
 def foil_layers(
     foil: Foil | None, values: Values, emissivity: float, translucent: bool
-) -> tuple[list[Layer], list[Namelist]]:
+) -> tuple[list[FdsLayer], list[Namelist]]:
     """Return contact resistance and foil as layers, and their MATL lines."""
     if foil is None:
         return [], []
@@ -50,13 +50,13 @@ def foil_layers(
     layers, lines = [], []
     resistance = value_of(foil.contact_m2K_W, values)
     if resistance > 0.0:
-        layers.append(Layer({CONTACT: 1.0}, CONTACT_M))
+        layers.append(FdsLayer({CONTACT: 1.0}, CONTACT_M))
         no_heat: dict[str, Item] = {"DENSITY": 1.0, "SPECIFIC_HEAT": 1.0, "EMISSIVITY": 1.0}
         k = CONTACT_M / resistance
         lines.append(Namelist("MATL", {"ID": CONTACT, "CONDUCTIVITY": k, **no_heat, **opaque}))
     mass = value_of(foil.mass_factor, values)
     if mass > 0.0:
-        layers.append(Layer({FOIL: 1.0}, value_of(foil.thickness_m, values)))
+        layers.append(FdsLayer({FOIL: 1.0}, value_of(foil.thickness_m, values)))
         items: dict[str, Item] = {
             "ID": FOIL,
             "DENSITY": mass * value_of(foil.density_kg_m3, values),
@@ -68,7 +68,7 @@ def foil_layers(
     return layers, lines
 
 
-def layer_keys(layers: list[Layer], lines: Lines) -> dict[str, Item | list[Item]]:
+def layer_keys(layers: list[FdsLayer], lines: MaterialLines) -> dict[str, Item | list[Item]]:
     """Return the keys of a SURF line that name the components of its layers and their sizes."""
     items: dict[str, Item | list[Item]] = {}
     for n, layer in enumerate(layers, 1):

@@ -36,7 +36,7 @@ Values = Mapping[str, float]
 
 
 @dataclass(frozen=True)
-class Lines:
+class MaterialLines:
     """The lines of some components.
 
     Parameters
@@ -74,7 +74,7 @@ class Options:
     absorption_1_m: Mapping[str, float] = field(default_factory=dict)
 
 
-def reached(material: Material, names: Iterable[str]) -> list[str]:
+def reached_components(material: Material, names: Iterable[str]) -> list[str]:
     """Return components and their reaction products, in the order of the material."""
     found = set(names)
     for reaction in (material.reactions[n] for n in material.reaction_order()):
@@ -85,9 +85,9 @@ def reached(material: Material, names: Iterable[str]) -> list[str]:
 
 def write_materials(
     material: Material, values: Values, names: Collection[str], options: Options
-) -> Lines:
+) -> MaterialLines:
     """Return the lines of the named components and of their reaction products."""
-    chosen = reached(material, names)
+    chosen = reached_components(material, names)
     remarks: list[Remark] = []
     split = {name: first_order_parts(material, values, name, remarks) for name in chosen}
     keys = [
@@ -108,7 +108,7 @@ def write_materials(
             namelists.append(Namelist("MATL", items))
         namelists += lines
     parts = {name: tuple((i, w) for i, w, _ in of) for name, of in named.items()}
-    return Lines(tuple(namelists), parts, tuple(remarks))
+    return MaterialLines(tuple(namelists), parts, tuple(remarks))
 
 
 def _own(material: Material, values: Values, name: str) -> list[tuple[str, Reaction]]:

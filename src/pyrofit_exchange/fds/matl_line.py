@@ -9,7 +9,7 @@ from pyrofit.constants import GAS_CONSTANT
 from pyrofit_exchange.fds.arrays import array
 from pyrofit_exchange.fds.depth import TWO_FLUX
 from pyrofit_exchange.fds.materials import R_FDS, REFERENCE_RATE_1_S
-from pyrofit_exchange.fds.peak import HEATING_RATE_K_MIN, PYROLYSIS_RANGE_K, Peak, kinetics_of
+from pyrofit_exchange.fds.peak import HEATING_RATE_K_MIN, PYROLYSIS_RANGE_K, Peak, fds_kinetics
 from pyrofit_exchange.fds.properties import CELSIUS_K
 from pyrofit_exchange.fds.versions import FdsError, Version
 
@@ -46,14 +46,14 @@ class Matl(NamedTuple):
         return found
 
 
-class Layer(NamedTuple):
+class VirginLayer(NamedTuple):
     """The virgin material: mass fractions by identifier, and density [kg/m3]."""
 
     shares: dict[str, float]
     density: float
 
 
-def number_of(matl: Matl, key: str) -> float:
+def required_number(matl: Matl, key: str) -> float:
     """Return a number that a line must have."""
     value = matl.one(key)
     if not isinstance(value, float):
@@ -65,14 +65,14 @@ def component(
     matl: Matl, ramps: Mapping[str, list[tuple[float, float]]]
 ) -> Iterator[tuple[str, Any]]:
     """Yield the keys of a component, SI units."""
-    yield "density_kg_m3", number_of(matl, "DENSITY")
+    yield "density_kg_m3", required_number(matl, "DENSITY")
     for key, own, factor in (
         ("CONDUCTIVITY", "conductivity_W_mK", 1.0),
         ("SPECIFIC_HEAT", "specific_heat_J_kgK", 1e3),
     ):
         ramp = matl.one(f"{key}_RAMP")
         if ramp is None:
-            yield own, _digits(factor * number_of(matl, key))
+            yield own, _digits(factor * required_number(matl, key))
             continue
         points = sorted(ramps.get(ramp, []))
         if len(points) < 2:
@@ -95,7 +95,7 @@ def _digits(value: float) -> float:
 
 
 def reactions_of(
-    matl: Matl, names: Mapping[str, str], layer: Layer, version: Version, remarks: list[str]
+    matl: Matl, names: Mapping[str, str], layer: VirginLayer, version: Version, remarks: list[str]
 ) -> Iterator[tuple[str, Keys]]:
     """Yield the reactions of a component by name."""
     if matl.one(SURFACE_OXIDATION):
@@ -104,7 +104,7 @@ def reactions_of(
             "and a factor of the wind; left out. Describe it by a reaction with an oxygen_order"
         )
         return
-    count = count_of(matl)
+    count = reactions_of_line(matl)
     orders = matl.of("N_S", 1)
     oxygen_orders, depths = matl.of("N_O2", 1), matl.of("GAS_DIFFUSION_DEPTH", 1)
     heats = matl.of("HEAT_OF_REACTION", 1)
@@ -139,7 +139,7 @@ def reactions_of(
         yield (name if count == 1 else f"{name}_{j}"), reaction
 
 
-def count_of(matl: Matl) -> int:
+def reactions_of_line(matl: Matl) -> int:
     """Return the number of reactions; FDS takes one where a line has kinetics and no number."""
     given = matl.one("N_REACTIONS")
     if given is not None:
@@ -168,8 +168,8 @@ def _kinetics(
         residue,
     )
     try:
-        (_, old), (_, new) = (kinetics_of(peak, of_gas) for of_gas in (True, False))
-        A, E = kinetics_of(peak, version.range_of_gas)
+        (_, old), (_, new) = (fds_kinetics(peak, of_gas) for of_gas in (True, False))
+        A, E = fds_kinetics(peak, version.range_of_gas)
     except FdsError as error:
         raise FdsError(f"{matl.place}: MATL '{matl.name}', reaction {j}: {error}") from None
     said = f"MATL '{matl.name}': A and E of reaction {j} follow from REFERENCE_TEMPERATURE"
@@ -184,7 +184,7 @@ def _kinetics(
 
 
 def _factor(
-    A: float, order: float, matl: Matl, layer: Layer, old_order: bool, remarks: list[str]
+    A: float, order: float, matl: Matl, layer: VirginLayer, old_order: bool, remarks: list[str]
 ) -> float:
     """Return A of pyrofit [1/s], of r = A exp(-E/(R T)) m0 (m/m0)^n.
 

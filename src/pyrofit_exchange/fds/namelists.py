@@ -18,10 +18,10 @@ class Namelist(NamedTuple):
     comment: tuple[str, ...] = ()
 
 
-def number(value: float) -> str:
+def nine_digits(value: float) -> str:
     """Return a number with nine digits: four digits of E would change a rate by 1 %.
 
-    >>> number(24728.593312345), number(0.2)
+    >>> nine_digits(24728.593312345), nine_digits(0.2)
     ('24728.5933', '0.2')
     """
     return f"{float(value):.9g}"
@@ -32,7 +32,7 @@ def _text(item: Item) -> str:
         return ".TRUE." if item else ".FALSE."
     if isinstance(item, str):
         return "'" + item.replace("'", "") + "'"
-    return number(item)
+    return nine_digits(item)
 
 
 def _value(value: Item | Sequence[Item]) -> str:

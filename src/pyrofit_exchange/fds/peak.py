@@ -35,7 +35,7 @@ class Peak(NamedTuple):
     residue: float = 0.0
 
 
-def kinetics_of(peak: Peak, counts_gas: bool) -> tuple[float, float]:
+def fds_kinetics(peak: Peak, counts_gas: bool) -> tuple[float, float]:
     """Return A [1/s] and E [J/mol] of FDS, with its gas constant.
 
     E = e r R T_p^2 / beta and A = e r exp(E/(R T_p)). Without a given rate r it is 2 beta / dT, and
@@ -48,7 +48,7 @@ def kinetics_of(peak: Peak, counts_gas: bool) -> tuple[float, float]:
 
     Examples
     --------
-    >>> A, E = kinetics_of(Peak(350.0), counts_gas=False)
+    >>> A, E = fds_kinetics(Peak(350.0), counts_gas=False)
     >>> print(f"{A:.4g} 1/s, {E:.0f} J/mol")
     1.394e+16 1/s, 219409 J/mol
     """

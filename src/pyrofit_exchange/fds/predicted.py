@@ -25,7 +25,7 @@ BURNT_KG_M2S = 1e-3
 LAST_K = 1200.0
 
 
-class Predicted(NamedTuple):
+class PredictedByPyrofit(NamedTuple):
     """Curves of pyrofit at intervals of 1 s, means over them of the rate, shape (n,).
 
     Parameters
@@ -65,7 +65,7 @@ def burn_out(time_s: FloatArray, rate: FloatArray) -> float:
 
 def predict_slab(
     experiment: SlabExperiment, material: Material, values: Values, accuracy: Accuracy
-) -> Predicted:
+) -> PredictedByPyrofit:
     """Return pyrofit's curves until 70 s behind burn-out, without the effects of recording.
 
     Raises
@@ -88,7 +88,7 @@ def predict_slab(
     end = min(np.ceil(burnt + AFTER_S), longest) if np.isfinite(burnt) else longest
     kept = at < end
     rate, back, front, mass = (run.signals[n][kept] for n in (RATE, BACK, FRONT, MASS))
-    return Predicted(at[kept], rate, back, front, mass, burnt, float(end))
+    return PredictedByPyrofit(at[kept], rate, back, front, mass, burnt, float(end))
 
 
 def predict_heated(

@@ -11,7 +11,7 @@ LIMIT_S = 1200.0
 """Time limit of a run."""
 
 
-class Run(NamedTuple):
+class EndedRun(NamedTuple):
     """A run that ended.
 
     Parameters
@@ -29,11 +29,11 @@ class Run(NamedTuple):
     said: str
 
 
-def call(executable: Path, arguments: list[str], folder: Path, limit_s: float) -> Run:
+def call(executable: Path, arguments: list[str], folder: Path, limit_s: float) -> EndedRun:
     """Run FDS in a folder; at the time limit it is killed with all that it started."""
     ended = run_process([str(executable), *arguments], folder, fds_environment(), limit_s)
     why = ended.why or complaint(ended.err, ended.status)
-    return Run(why, ended.seconds, ended.said)
+    return EndedRun(why, ended.seconds, ended.said)
 
 
 def version_text(executable: Path, folder: Path) -> str:
@@ -54,7 +54,9 @@ def version_text(executable: Path, folder: Path) -> str:
     return found
 
 
-def run_deck(executable: Path, text: str, name: str, folder: Path, limit_s: float = LIMIT_S) -> Run:
+def run_deck(
+    executable: Path, text: str, name: str, folder: Path, limit_s: float = LIMIT_S
+) -> EndedRun:
     """Run a deck in a new folder.
 
     Parameters

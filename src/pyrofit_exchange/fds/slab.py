@@ -8,12 +8,12 @@ from pyrofit.model.base import value_of
 from pyrofit.model.material import Material
 from pyrofit.model.slab import EmissivityDepth, SlabExperiment
 from pyrofit_exchange.fds.depth import absorption
-from pyrofit_exchange.fds.exposure import Flux, Outside, surroundings
+from pyrofit_exchange.fds.exposure import FdsSurroundings, Flux, surroundings
 from pyrofit_exchange.fds.gases import gas_around
-from pyrofit_exchange.fds.layers import Layer, foil_layers, layer_keys, own_layers
-from pyrofit_exchange.fds.materials import Lines, Options, Values, write_materials
+from pyrofit_exchange.fds.layers import FdsLayer, foil_layers, layer_keys, own_layers
+from pyrofit_exchange.fds.materials import MaterialLines, Options, Values, write_materials
 from pyrofit_exchange.fds.namelists import Item, Namelist
-from pyrofit_exchange.fds.predicted import Predicted
+from pyrofit_exchange.fds.predicted import PredictedByPyrofit
 from pyrofit_exchange.fds.properties import CELSIUS_K
 from pyrofit_exchange.fds.records import CELL_M, closing
 from pyrofit_exchange.fds.remarks import Remark, once
@@ -63,7 +63,7 @@ def slab_deck(
     material: Material,
     values: Values,
     version: Version,
-    predicted: Predicted,
+    predicted: PredictedByPyrofit,
 ) -> Deck:
     """Return the deck of a slab: uniform cells, a fixed time step, everything else given.
 
@@ -112,7 +112,7 @@ def slab_deck(
     )
 
 
-def virgin_emissivity(layer: Layer, material: Material, values: Values) -> float:
+def virgin_emissivity(layer: FdsLayer, material: Material, values: Values) -> float:
     """Return the emissivity of the virgin front, by volume as pyrofit mixes it."""
     parts = [(material.components[n], w) for n, w in layer.shares.items()]
     volumes = [w / value_of(c.density_kg_m3, values) for c, w in parts]
@@ -121,7 +121,7 @@ def virgin_emissivity(layer: Layer, material: Material, values: Values) -> float
 
 
 def _cells(
-    experiment: SlabExperiment, material: Material, values: Values, lines: Lines
+    experiment: SlabExperiment, material: Material, values: Values, lines: MaterialLines
 ) -> tuple[float, list[Remark]]:
     """Return CELL_SIZE_FACTOR; where emissivities differ, the surface cell counts."""
     written = [material.components[n] for n in lines.parts if n in material.own]
@@ -146,8 +146,8 @@ def _cells(
 def _head(
     name: str,
     title: str,
-    outside: Outside,
-    predicted: Predicted,
+    outside: FdsSurroundings,
+    predicted: PredictedByPyrofit,
     version: Version,
     step: float,
     spots: int,
@@ -174,11 +174,11 @@ def _celsius(T: float) -> float:
 
 
 def _surfaces(
-    layers: list[Layer],
-    lines: Lines,
+    layers: list[FdsLayer],
+    lines: MaterialLines,
     experiment: SlabExperiment,
     values: Values,
-    outside: Outside,
+    outside: FdsSurroundings,
     version: Version,
     factor: float,
     spots: list[tuple[float, float]],
@@ -203,7 +203,7 @@ def _surfaces(
 
 
 def _fineness(
-    layers: list[Layer], lines: Lines, factor: float, version: Version
+    layers: list[FdsLayer], lines: MaterialLines, factor: float, version: Version
 ) -> dict[str, Item | list[Item]]:
     """Return the fineness of the cells: one number up to 6.7, one for each layer later."""
     described = sum(set(layer.shares) <= set(lines.parts) for layer in layers)
@@ -212,13 +212,13 @@ def _fineness(
     return {"CELL_SIZE_FACTOR": factor}
 
 
-def _under(outside: Outside, multiple: float) -> Flux:
+def _under(outside: FdsSurroundings, multiple: float) -> Flux:
     """Return the flux at a spot that gets a multiple of the heater's flux."""
     heater = outside.heater_W_m2
     return Flux(outside.flux.time_s, outside.flux.value_W_m2 + (multiple - 1.0) * heater)
 
 
-def _backing(outside: Outside, version: Version) -> dict[str, Item]:
+def _backing(outside: FdsSurroundings, version: Version) -> dict[str, Item]:
     if outside.is_insulated:
         return {"BACKING": "INSULATED"}
     convection: dict[str, Item] = (

@@ -9,12 +9,12 @@ from pyrofit.model.base import value_of
 from pyrofit.model.heated import HeatedExperiment
 from pyrofit.model.material import Material
 from pyrofit.model.slab import Foil, SlabExperiment
-from pyrofit_exchange.fds.exposure import Outside, surroundings
+from pyrofit_exchange.fds.exposure import FdsSurroundings, surroundings
 from pyrofit_exchange.fds.heated import virgin
-from pyrofit_exchange.fds.layers import COPPER_W_MK, Layer, own_layers
-from pyrofit_exchange.fds.materials import Values, reached
+from pyrofit_exchange.fds.layers import COPPER_W_MK, FdsLayer, own_layers
+from pyrofit_exchange.fds.materials import Values, reached_components
 from pyrofit_exchange.fds.namelists import Namelist
-from pyrofit_exchange.fds.predicted import Predicted
+from pyrofit_exchange.fds.predicted import PredictedByPyrofit
 from pyrofit_exchange.fds.properties import tabulated
 from pyrofit_exchange.fds.remarks import Remark, once
 from pyrofit_exchange.fds.slab import virgin_emissivity
@@ -28,13 +28,13 @@ from pyrofit_exchange.gpyro.groups import (
     general,
     geometry,
     initial,
-    numbered,
+    numbered_keys,
     output,
     reactions,
     species,
     unused,
 )
-from pyrofit_exchange.steps import Step, left_out, steps_of
+from pyrofit_exchange.steps import StepReaction, left_out, steps_of
 
 R_GPYRO = 8.314
 OPAQUE_1_M = 9e9
@@ -56,7 +56,7 @@ def slab_data(
     experiment: SlabExperiment,
     material: Material,
     values: Values,
-    predicted: Predicted,
+    predicted: PredictedByPyrofit,
 ) -> Data:
     """Return the file of a slab.
 
@@ -67,7 +67,7 @@ def slab_data(
     layers, remarks = _thick_enough(own_layers(sample, material, values))
     foil = _foil_heat(sample.foil, values)
     grid = grid_of(layers, foil > 0.0)
-    present = reached(material, [n for layer in layers for n in layer.shares])
+    present = reached_components(material, [n for layer in layers for n in layer.shares])
     eps = virgin_emissivity(layers[0], material, values)
     start = value_of(sample.initial_temperature_K, values)
     outside = _not_warmer_behind(surroundings(experiment, values, predicted, eps, False), start)
@@ -81,17 +81,17 @@ def slab_data(
     gas_heat = value_of(sample.gas_specific_heat_J_kgK, values)
     if foil > 0.0:
         bodies.append(_foil(foil, grid.foil_m, outside.emissivity_back or eps))
-        layers, present = [*layers, Layer({FOIL: 1.0}, grid.foil_m)], [*present, FOIL]
+        layers, present = [*layers, FdsLayer({FOIL: 1.0}, grid.foil_m)], [*present, FOIL]
     end: Items = {"TSTOP(1)": predicted.end_s, "ZEROD(1)": False, "BETA(1)": 0}
     namelists = (
         general(0.02, outside.gas_K, bodies),
         output(name, ["MLR", "TEMPERATURE", "TEMPERATURE"], [0.0, 0.0, grid.depth_m]),
-        Namelist("GPYRO_SPROPS", numbered("NSSPEC", bodies)),
+        Namelist("GPYRO_SPROPS", numbered_keys("NSSPEC", bodies)),
         *reactions(steps, gas_heat),
         Namelist("GPYRO_CASES", {"NCASES": 1, "IMESH(1)": 1, **end}),
         *unused(),
         initial(layers, present, start),
-        Namelist("GPYRO_ALLBC", numbered("NSURF_IDX", boundaries(outside))),
+        Namelist("GPYRO_ALLBC", numbered_keys("NSURF_IDX", boundaries(outside))),
         Namelist("GPYRO_GEOM", geometry(grid, (0, 0, 0, 0, 1, 2))),
     )
     return Data(namelists, once(remarks))
@@ -102,7 +102,7 @@ def heated_data(
 ) -> Data:
     """Return the file of all heating rates: one case of no dimension for each."""
     layer = virgin(material, values)._replace(thickness_m=1.0)
-    present = reached(material, list(layer.shares))
+    present = reached_components(material, list(layer.shares))
     bodies, remarks = all_species(material, values, present, 0.0)
     remarks += left_out(material, values)
     steps = steps_of(material, values, present, R_GPYRO)
@@ -116,18 +116,20 @@ def heated_data(
     namelists = (
         general(0.1, start, bodies),
         output(name, ["MLR", "M/M0"], [0.0, 0.0]),
-        Namelist("GPYRO_SPROPS", numbered("NSSPEC", bodies)),
+        Namelist("GPYRO_SPROPS", numbered_keys("NSSPEC", bodies)),
         *reactions(steps, 0.0),
         Namelist("GPYRO_CASES", cases),
         *unused(),
         initial([layer], present, start),
-        Namelist("GPYRO_ALLBC", numbered("NSURF_IDX", boundaries(Outside.still(start)))),
+        Namelist(
+            "GPYRO_ALLBC", numbered_keys("NSURF_IDX", boundaries(FdsSurroundings.still(start)))
+        ),
         Namelist("GPYRO_GEOM", mesh),
     )
     return Data(namelists, once([*remarks, *_orders(steps, [layer])]))
 
 
-def _not_warmer_behind(outside: Outside, start_K: float) -> Outside:
+def _not_warmer_behind(outside: FdsSurroundings, start_K: float) -> FdsSurroundings:
     """Return surroundings whose back is colder than the sample at its start.
 
     Gpyro 0.82 sets the flux of the front to zero while net radiation enters the back, be it by
@@ -144,7 +146,7 @@ def _not_warmer_behind(outside: Outside, start_K: float) -> Outside:
 
 
 def _left_out(
-    experiment: SlabExperiment, values: Values, outside: Outside, eps: float
+    experiment: SlabExperiment, values: Values, outside: FdsSurroundings, eps: float
 ) -> Iterator[Remark]:
     """Yield the parts of a slab that Gpyro lacks or treats otherwise."""
     sample = experiment.sample
@@ -172,7 +174,7 @@ def _unwritten(experiment: SlabExperiment, values: Values) -> Iterator[Remark]:
     yield from unwritten(experiment.model_copy(update={"sample": sample}), values)
 
 
-def _thick_enough(layers: list[Layer]) -> tuple[list[Layer], list[Remark]]:
+def _thick_enough(layers: list[FdsLayer]) -> tuple[list[FdsLayer], list[Remark]]:
     """Return the layers that have two cells of the finest grid, and name the others."""
     cell = sum(layer.thickness_m for layer in layers) / MOST
     kept = [layer for layer in layers if layer.thickness_m >= 2.0 * cell]
@@ -211,7 +213,7 @@ def _foil(heat: float, thickness: float, emissivity: float) -> Items:
     return species(FOIL, k, density, c, emissivity, OPAQUE_1_M)
 
 
-def _orders(steps: list[Step], layers: list[Layer]) -> list[Remark]:
+def _orders(steps: list[StepReaction], layers: list[FdsLayer]) -> list[Remark]:
     """Name orders of products, whose initial mass is another one in Gpyro."""
     virgin = {n for layer in layers for n in layer.shares}
     return [

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pyrofit_exchange.fds.layers import Layer
+from pyrofit_exchange.fds.layers import FdsLayer
 
 FEWEST, MOST = 201, 801
 CLOSE = 5e-3
@@ -44,7 +44,7 @@ class Grid(NamedTuple):
         return 0.5 * self.depth_m / (self.nodes - 1)
 
 
-def grid_of(layers: Sequence[Layer], has_foil: bool) -> Grid:
+def grid_of(layers: Sequence[FdsLayer], has_foil: bool) -> Grid:
     """Return the fewest nodes with which thicknesses are right, else those that miss them least.
 
     Raises

@@ -2,11 +2,11 @@
 
 from collections.abc import Sequence
 
-from pyrofit_exchange.fds.exposure import Outside
-from pyrofit_exchange.fds.layers import Layer
+from pyrofit_exchange.fds.exposure import FdsSurroundings
+from pyrofit_exchange.fds.layers import FdsLayer
 from pyrofit_exchange.fds.namelists import Item, Namelist, unique
 from pyrofit_exchange.gpyro.grid import Grid
-from pyrofit_exchange.steps import Step
+from pyrofit_exchange.steps import StepReaction
 
 T_REF_K = 300.0
 Items = dict[str, Item | Sequence[Item]]
@@ -30,7 +30,7 @@ def species(
     }
 
 
-def numbered(count: str, parts: Sequence[Items]) -> Items:
+def numbered_keys(count: str, parts: Sequence[Items]) -> Items:
     """Return the keys of several parts with their numbers."""
     found: Items = {count: len(parts)}
     for n, part in enumerate(parts, 1):
@@ -39,7 +39,7 @@ def numbered(count: str, parts: Sequence[Items]) -> Items:
     return found
 
 
-def reactions(steps: list[Step], gas_heat: float) -> list[Namelist]:
+def reactions(steps: list[StepReaction], gas_heat: float) -> list[Namelist]:
     """Return reactions: solid products keep all mass (CHI = 0), heat belongs to the gas.
 
     ``gas_heat`` [J/(kg K)] is the heat that the gas takes up on its way to the front.
@@ -62,7 +62,7 @@ def reactions(steps: list[Step], gas_heat: float) -> list[Namelist]:
     gas |= {"M(1)": 44.0, "SIGMA(1)": 5.061, "EPSOK(1)": 254.0, "C0(1)": 1000.0, "NC(1)": 0.0}
     yields: Items = {f"GYIELDS(1,{n + 1})": 1.0 for n in range(len(parts))}
     return [
-        Namelist("GPYRO_RXNS", numbered("NRXNS", parts)),
+        Namelist("GPYRO_RXNS", numbered_keys("NRXNS", parts)),
         Namelist("GPYRO_HGRXNS", {"NHGRXNS": 0}),
         Namelist("GPYRO_GPROPS", gas),
         Namelist("GPYRO_GYIELDS", yields),
@@ -117,7 +117,7 @@ def output(name: str, quantities: list[str], depths: list[float]) -> Namelist:
     return Namelist("GPYRO_OUTPUT", items)
 
 
-def initial(layers: list[Layer], present: list[str], start: float) -> Namelist:
+def initial(layers: list[FdsLayer], present: list[str], start: float) -> Namelist:
     """Return the initial state of every layer."""
     items: Items = {"NIC": len(layers)}
     for n, layer in enumerate(layers, 1):
@@ -128,7 +128,7 @@ def initial(layers: list[Layer], present: list[str], start: float) -> Namelist:
     return Namelist("GPYRO_IC", items)
 
 
-def boundaries(outside: Outside) -> list[Items]:
+def boundaries(outside: FdsSurroundings) -> list[Items]:
     """Return the front, whose flux is linear between its times, and the back."""
 
     def side(index: int, t: float, q: float, h: float, T: float, radiates: bool) -> Items:

@@ -3,7 +3,7 @@
 from typing import NamedTuple
 
 
-class Asked(NamedTuple):
+class Submission(NamedTuple):
     """A request for a submission.
 
     Parameters

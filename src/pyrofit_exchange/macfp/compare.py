@@ -11,7 +11,7 @@ from pyrofit_exchange.macfp.predict import (
     AREA_M2,
     PMMA_CASES,
     WOOD_CASES,
-    Case,
+    IdealSlab,
     Metrics,
     SlabCurves,
     material,
@@ -25,7 +25,7 @@ _HEAD = ("set", "peak", "at", "onset", "half", "end", "left", "back")
 _UNITS = ("", "g/m2/s", "s", "s", "s", "s", "-", "K")
 
 
-def compared(paths: Sequence[Path], cases: str, out: Path | None) -> Iterator[str]:
+def comparison_tables(paths: Sequence[Path], cases: str, out: Path | None) -> Iterator[str]:
     """Yield a table for each case: a row for each set, and the spread of all.
 
     Parameters
@@ -50,11 +50,11 @@ def compared(paths: Sequence[Path], cases: str, out: Path | None) -> Iterator[st
             curves = simulate_case(of, case)
             rows[name] = metrics(curves)
             if out is not None:
-                write_curves(out / f"{name}_Gasification_{case.name}.csv", curves)
+                write_slab_curves(out / f"{name}_Gasification_{case.name}.csv", curves)
         yield from _table(case, rows)
 
 
-def write_curves(path: Path, curves: SlabCurves) -> None:
+def write_slab_curves(path: Path, curves: SlabCurves) -> None:
     """Write the curves of a slab of 100 mm by 100 mm, mass and mass loss rate both."""
     path.parent.mkdir(parents=True, exist_ok=True)
     columns = (
@@ -71,7 +71,7 @@ def write_curves(path: Path, curves: SlabCurves) -> None:
     path.write_text("\n".join([head, *lines]) + "\n", encoding="utf-8")
 
 
-def _table(case: Case, rows: dict[str, Metrics]) -> Iterator[str]:
+def _table(case: IdealSlab, rows: dict[str, Metrics]) -> Iterator[str]:
     yield ""
     yield f"{case.name} from {case.temperature_K:g} K, back insulated, no convection"
     width = max(len("median"), *map(len, rows))

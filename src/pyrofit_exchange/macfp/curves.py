@@ -33,7 +33,7 @@ class UnknownFormError(Exception):
     """A form that is not known, in words."""
 
 
-def of_material(given: Any, network: Network, key: str, notes: list[str]) -> Any:
+def property_curves(given: Any, network: Network, key: str, notes: list[str]) -> Any:
     """Return a property of all components; nothing where the file has none.
 
     Raises

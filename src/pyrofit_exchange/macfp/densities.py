@@ -7,7 +7,7 @@ import numpy as np
 from pyrofit.errors import DataError
 from pyrofit.model.properties import PowerLaw
 from pyrofit.model.properties import Table as StudyTable
-from pyrofit_exchange.macfp.forms import REFERENCE_K, Line, Power, Single, number, single
+from pyrofit_exchange.macfp.forms import REFERENCE_K, Line, Power, Single, number_or_none, single
 
 _GRID_K = tuple(np.arange(250.0, 1001.0, 50.0).tolist())
 
@@ -54,21 +54,21 @@ def density_back(component: Any) -> Any:
     TypeError
         The data base has no words for the expansion.
     """
-    density, expansion = number(component.density_kg_m3), component.expansion
+    density, expansion = number_or_none(component.density_kg_m3), component.expansion
     if isinstance(expansion, int | float):
         if expansion != 1.0:
             raise TypeError("an expansion that does not vary with temperature")
         return single(density)
-    if isinstance(expansion, PowerLaw) and number(expansion.value) == 1.0:
+    if isinstance(expansion, PowerLaw) and number_or_none(expansion.value) == 1.0:
         return Power(
             form="Gpyro Power Law",
             base=density,
-            exponent=-number(expansion.exponent),
-            reference=number(expansion.reference_temperature_K),
+            exponent=-number_or_none(expansion.exponent),
+            reference=number_or_none(expansion.reference_temperature_K),
         )
     if isinstance(expansion, StudyTable):
         T = np.array(expansion.temperature_K)
-        rho = density / np.array([number(v) for v in expansion.value])
+        rho = density / np.array([number_or_none(v) for v in expansion.value])
         slope = (rho[-1] - rho[0]) / (T[-1] - T[0])
         if np.allclose(rho, rho[0] + slope * (T - T[0]), rtol=1e-9):
             return Line(form="Linear", slope=float(slope), intercept=float(rho[0] - slope * T[0]))

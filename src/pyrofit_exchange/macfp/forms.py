@@ -156,16 +156,16 @@ def from_study(given: Any) -> Any:
     if isinstance(given, StudyPower):
         return Power(
             form="Gpyro Power Law",
-            base=number(given.value),
-            exponent=number(given.exponent),
-            reference=number(given.reference_temperature_K),
+            base=number_or_none(given.value),
+            exponent=number_or_none(given.exponent),
+            reference=number_or_none(given.reference_temperature_K),
         )
     if isinstance(given, StudyLinear):
-        value, slope = number(given.value), number(given.slope_1_K)
-        T = number(given.reference_temperature_K)
+        value, slope = number_or_none(given.value), number_or_none(given.slope_1_K)
+        T = number_or_none(given.reference_temperature_K)
         return Line(form="Linear", slope=value * slope, intercept=value * (1.0 - slope * T))
     if isinstance(given, StudyTable):
-        values = tuple(number(given.factor) * number(v) for v in given.value)
+        values = tuple(number_or_none(given.factor) * number_or_none(v) for v in given.value)
         return _lines_of(given.temperature_K, values) or Table(
             form="Table", temperatures=given.temperature_K, values=values
         )
@@ -186,7 +186,7 @@ def _lines_of(T: tuple[float, ...], values: tuple[float, ...]) -> Lines | None:
     )
 
 
-def number(value: float | str) -> float:
+def number_or_none(value: float | str) -> float:
     """Return a number; a name of a parameter has none.
 
     Raises

@@ -8,12 +8,12 @@ import numpy as np
 
 from pyrofit.model.material import Material
 from pyrofit.solver import outputs
-from pyrofit_exchange.macfp.compare import write_curves
+from pyrofit_exchange.macfp.compare import write_slab_curves
 from pyrofit_exchange.macfp.predict import (
     AREA_M2,
     WOOD_CASES,
     WOOD_RATES_K_MIN,
-    Case,
+    IdealSlab,
     SlabCurves,
     simulate_case,
     simulate_program,
@@ -22,7 +22,7 @@ from pyrofit_exchange.macfp.predict import (
 _STA_MG = 5.0
 _STA_K = 300.0 + 0.5 * np.arange(1561, dtype=np.float64)
 """Temperatures of the predicted STA [K], as many rows as the template has."""
-VALIDATION_CASES = Case(25e3, 6e-3, 2000.0, 293.15), Case(50e3, 6e-3, 1000.0, 293.15)
+VALIDATION_CASES = IdealSlab(25e3, 6e-3, 2000.0, 293.15), IdealSlab(50e3, 6e-3, 1000.0, 293.15)
 """Slabs of the third workshop, without an apparatus."""
 
 
@@ -44,11 +44,13 @@ def form_4(of: Material, folder: Path, institute: str, name: str) -> Iterator[st
     for case in WOOD_CASES:
         q, d = 1e-3 * case.flux_W_m2, 1e3 * case.thickness_m
         path = folder / f"{institute}_{name}_GASIFICATION_q{q:g}_{d:g}mm.csv"
-        write_curves(path, simulate_case(of, case))
+        write_slab_curves(path, simulate_case(of, case))
         yield path.name
 
 
-def form_3(simulate: Callable[[Case], SlabCurves], folder: Path, institute: str) -> Iterator[str]:
+def form_3(
+    simulate: Callable[[IdealSlab], SlabCurves], folder: Path, institute: str
+) -> Iterator[str]:
     """Write mass, mass loss rate and back temperature at 25 and 50 kW/m2, as asked for in 2023."""
     folder.mkdir(parents=True, exist_ok=True)
     for case in VALIDATION_CASES:
@@ -69,12 +71,12 @@ def form_3(simulate: Callable[[Case], SlabCurves], folder: Path, institute: str)
 
 def like_experiment(
     of: Material, experiment: Any, values: dict[str, float]
-) -> Callable[[Case], SlabCurves]:
+) -> Callable[[IdealSlab], SlabCurves]:
     """Return a simulation in the apparatus of an experiment, at the flux and time of a case."""
     from pyrofit.simulate import simulate_gasification
     from pyrofit.solver.curves import Request
 
-    def run(case: Case) -> SlabCurves:
+    def run(case: IdealSlab) -> SlabCurves:
         front = experiment.front.model_copy(update={"flux_W_m2": case.flux_W_m2})
         changed = experiment.model_copy(update={"front": front, "signals": {}})
         t = np.arange(1.0, case.duration_s + 0.5)

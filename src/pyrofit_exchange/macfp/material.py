@@ -16,7 +16,7 @@ from pyrofit_exchange.macfp.forms import (
     Single,
     alike,
     from_study,
-    number,
+    number_or_none,
     single,
     to_study,
 )
@@ -134,8 +134,8 @@ def strict_of(material: Material, about: Mapping[str, Any], thermal: bool = True
         },
         "Kinetics": _kinetics(material, names),
     }
-    heats = [number(r.heat_of_reaction_J_kg) for r in material.reactions.values()]
-    burns = [number(r.heat_of_combustion_J_kg) for r in material.reactions.values()]
+    heats = [number_or_none(r.heat_of_reaction_J_kg) for r in material.reactions.values()]
+    burns = [number_or_none(r.heat_of_combustion_J_kg) for r in material.reactions.values()]
     if thermal:
         try:
             parts |= _thermal(material, names, heats)
@@ -152,7 +152,7 @@ def strict_of(material: Material, about: Mapping[str, Any], thermal: bool = True
 def _fractions(material: Material, names: Sequence[str]) -> list[float]:
     given = {n: x for n, x in material.composition.items() if not isinstance(x, str)}
     rest = [n for n, x in material.composition.items() if isinstance(x, str)]
-    known = {n: number(x) for n, x in given.items()}
+    known = {n: number_or_none(x) for n, x in given.items()}
     if rest:
         known[rest[0]] = 1.0 - sum(known.values())
     return [known.get(name, 0.0) for name in names]
@@ -161,7 +161,7 @@ def _fractions(material: Material, names: Sequence[str]) -> list[float]:
 def _kinetics(material: Material, names: Sequence[str]) -> dict[str, Any]:
     places = {name: i for i, name in enumerate(names, start=1)}
     reactions = list(material.reactions.values())
-    if faster := [r.reactant for r in reactions if number(r.catalysis) > 0.0]:
+    if faster := [r.reactant for r in reactions if number_or_none(r.catalysis) > 0.0]:
         raise StudyError(NO_CATALYSIS.format(faster[0]))
     if several := [r.reactant for r in reactions if len(r.products) > 1]:
         raise DataError(f"the reaction of '{several[0]}' has several solid products; give one.")
@@ -169,20 +169,23 @@ def _kinetics(material: Material, names: Sequence[str]) -> dict[str, Any]:
         "Reactants": [[places[r.reactant]] for r in reactions],
         "Products": [[places[p] for p in r.products] or [0] for r in reactions],
         "Pre-exponential": [_A(r) for r in reactions],
-        "Activation Energy": [number(r.E_J_mol) for r in reactions],
-        "Reaction Order": [number(r.order) for r in reactions],
-        "Solid Yield": [sum(number(nu) for nu in r.products.values()) for r in reactions],
+        "Activation Energy": [number_or_none(r.E_J_mol) for r in reactions],
+        "Reaction Order": [number_or_none(r.order) for r in reactions],
+        "Solid Yield": [sum(number_or_none(nu) for nu in r.products.values()) for r in reactions],
     }
 
 
 def _A(reaction: Any) -> float:
     """Return the pre-exponential factor, A = k_ref exp(E/(R T_ref)) where that is given."""
     if reaction.A_1_s is not None:
-        return number(reaction.A_1_s)
+        return number_or_none(reaction.A_1_s)
     from pyrofit.constants import GAS_CONSTANT
 
-    T, k = number(reaction.reference_temperature_K), number(reaction.reference_rate_1_s)
-    return k * math.exp(number(reaction.E_J_mol) / (GAS_CONSTANT * T))
+    T, k = (
+        number_or_none(reaction.reference_temperature_K),
+        number_or_none(reaction.reference_rate_1_s),
+    )
+    return k * math.exp(number_or_none(reaction.E_J_mol) / (GAS_CONSTANT * T))
 
 
 def _thermal(material: Material, names: Sequence[str], heats: Sequence[float]) -> dict[str, Any]:
@@ -197,9 +200,9 @@ def _thermal(material: Material, names: Sequence[str], heats: Sequence[float]) -
         "Transport": {
             "Conductivity": _components([from_study(c.conductivity_W_mK) for c in parts]),
             "Absorption": _components(
-                [NOTHING if a is None else single(number(a)) for a in absorption]
+                [NOTHING if a is None else single(number_or_none(a)) for a in absorption]
             ),
-            "Emissivity": _components([single(number(c.emissivity)) for c in parts]),
+            "Emissivity": _components([single(number_or_none(c.emissivity)) for c in parts]),
         },
     }
 

@@ -19,7 +19,7 @@ _PROPERTIES = (
 _NAMES = ("reactant", "products")
 
 
-def numeric(material: Material, values: Mapping[str, float]) -> tuple[Material, list[str]]:
+def numeric_material(material: Material, values: Mapping[str, float]) -> tuple[Material, list[str]]:
     """Return a material without parameters, and notes on the properties turned into tables.
 
     A property of a form that the data base lacks becomes a table, with the points that straight

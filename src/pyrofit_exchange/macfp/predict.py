@@ -25,7 +25,7 @@ _ONSET, _END = 1e-3, 1e-4
 
 
 @dataclass(frozen=True)
-class Case:
+class IdealSlab:
     """An ideal slab: one flux, no convection, the back insulated.
 
     Parameters
@@ -47,14 +47,14 @@ class Case:
     def name(self) -> str:
         """Short name: `25kW_6mm`.
 
-        >>> Case(25e3, 6e-3, 1500.0, 293.15).name
+        >>> IdealSlab(25e3, 6e-3, 1500.0, 293.15).name
         '25kW_6mm'
         """
         return f"{self.flux_W_m2 / 1e3:g}kW_{self.thickness_m * 1e3:g}mm"
 
 
 PMMA_CASES = tuple(
-    Case(1e3 * q, 1e-3 * d, t, 293.15)
+    IdealSlab(1e3 * q, 1e-3 * d, t, 293.15)
     for q, d, t in (
         (10, 6, 6000.0),
         (10, 12, 12000.0),
@@ -66,7 +66,7 @@ PMMA_CASES = tuple(
 )
 """Cases of the model comparison of 2021 (MaCFP-2)."""
 WOOD_CASES = tuple(
-    Case(1e3 * q, 1e-3 * d, t, 300.0)
+    IdealSlab(1e3 * q, 1e-3 * d, t, 300.0)
     for q, d, t in (
         (10, 6, 1500.0),
         (10, 18, 4200.0),
@@ -127,7 +127,7 @@ def material(given: StrictSet) -> Material:
     return Material.model_validate(material_of(given))
 
 
-def simulate_case(of: Material, case: Case, accuracy: Accuracy | None = None) -> SlabCurves:
+def simulate_case(of: Material, case: IdealSlab, accuracy: Accuracy | None = None) -> SlabCurves:
     """Simulate an ideal slab."""
     kind = KINDS["gasification"]
     T = case.temperature_K
@@ -165,7 +165,7 @@ def simulate_case(of: Material, case: Case, accuracy: Accuracy | None = None) ->
     )
 
 
-def _initial_mass(of: Material, case: Case) -> float:
+def _initial_mass(of: Material, case: IdealSlab) -> float:
     """Return the initial mass per area: volumes of the components add up."""
     volume = 0.0
     for name, share in of.composition.items():

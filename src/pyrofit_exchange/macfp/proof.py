@@ -44,7 +44,7 @@ class Proof(NamedTuple):
     unit: str
 
 
-def calibrated(study: Study) -> dict[str, list[str]]:
+def calibration_signals(study: Study) -> dict[str, list[str]]:
     """Return the signals by experiment that the kinetics and the first cost use."""
     used: dict[str, list[str]] = {}
     first = next(iter(study.imp.costs.values()))
@@ -63,7 +63,7 @@ def write_proofs(study: Study, chosen: ParameterSet, folder: Path, institute: st
     if study.is_synthetic:
         frames |= computed(study)
     proofs = []
-    for name, signals in calibrated(study).items():
+    for name, signals in calibration_signals(study).items():
         experiment = study.experiments[name]
         kind = kind_of(experiment)
         asked = {}

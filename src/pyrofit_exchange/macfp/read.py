@@ -7,11 +7,11 @@ from typing import Any, NamedTuple
 from pydantic import ValidationError
 
 from pyrofit.errors import DataError
-from pyrofit_exchange.macfp.curves import of_material
+from pyrofit_exchange.macfp.curves import property_curves
 from pyrofit_exchange.macfp.forms import NOTHING, Nothing, PerReaction, Single, single
 from pyrofit_exchange.macfp.network import Network, network_of
 from pyrofit_exchange.macfp.schema import StrictSet
-from pyrofit_exchange.macfp.tolerant import read_json
+from pyrofit_exchange.macfp.tolerant import read_tolerant_json
 
 _READ = {
     "Material",
@@ -60,7 +60,7 @@ def read_set(path: Path) -> ReadSet:
     DataError
         The file is no JSON even after mending, or a part is missing or has an unknown form.
     """
-    raw, mended = read_json(path)
+    raw, mended = read_tolerant_json(path)
     try:
         return ReadSet(path, StrictSet.model_validate(raw), mended, (), not mended)
     except ValidationError:
@@ -117,7 +117,7 @@ def _strict(where: str, raw: Mapping[str, Any], notes: list[str]) -> dict[str, A
 
 
 def _thermodynamics(given: Mapping[str, Any], network: Network, notes: list[str]) -> dict[str, Any]:
-    capacity = of_material(given.get("Heat Capacity"), network, "Heat Capacity", notes)
+    capacity = property_curves(given.get("Heat Capacity"), network, "Heat Capacity", notes)
     heat = _per_reaction(given.get("Heat of Pyrolysis"), network, notes)
     kilo = any("Heat Capacity" in note and "kJ" in note for note in notes)
     if kilo and not isinstance(heat, Nothing):
@@ -128,7 +128,7 @@ def _thermodynamics(given: Mapping[str, Any], network: Network, notes: list[str]
     return {
         "Heat Capacity": capacity,
         "Heat of Pyrolysis": heat,
-        "Density": of_material(given.get("Density"), network, "Density", notes),
+        "Density": property_curves(given.get("Density"), network, "Density", notes),
     }
 
 
@@ -140,9 +140,9 @@ def _transport(given: Mapping[str, Any], network: Network, notes: list[str]) -> 
         if key not in known and not empty:
             notes.append(f"not expressible: '{key}' is left out")
     return {
-        "Conductivity": of_material(given.get("Conductivity"), network, "Conductivity", notes),
-        "Absorption": of_material(absorption, network, "Absorption", notes),
-        "Emissivity": of_material(given.get("Emissivity"), network, "Emissivity", notes),
+        "Conductivity": property_curves(given.get("Conductivity"), network, "Conductivity", notes),
+        "Absorption": property_curves(absorption, network, "Absorption", notes),
+        "Emissivity": property_curves(given.get("Emissivity"), network, "Emissivity", notes),
     }
 
 

@@ -4,8 +4,8 @@ from collections.abc import Iterator, Sequence
 
 from pyrofit.config import Study
 from pyrofit.experiments import kind_of
-from pyrofit_exchange.macfp.asked import Asked
-from pyrofit_exchange.macfp.proof import Proof, calibrated
+from pyrofit_exchange.macfp.asked import Submission
+from pyrofit_exchange.macfp.proof import Proof, calibration_signals
 from pyrofit_exchange.macfp.schema import StrictSet
 from pyrofit_exchange.sets import ParameterSet
 
@@ -17,7 +17,7 @@ def readme(
     proofs: Sequence[Proof],
     written: Sequence[str],
     notes: Sequence[str],
-    asked: Asked,
+    asked: Submission,
 ) -> str:
     """Return the text of the README: calibration, mechanism, parameters, proof, predictions."""
     lines = [
@@ -47,11 +47,11 @@ def _approach(study: Study, chosen: ParameterSet) -> Iterator[str]:
     yield ""
     yield "| experiment | kind | laboratory | signals used |"
     yield "|---|---|---|---|"
-    for name, signals in calibrated(study).items():
+    for name, signals in calibration_signals(study).items():
         test = study.experiments[name]
         words = kind_of(test).words
         yield f"| {test.title or name} | {words} | {test.laboratory} | {', '.join(signals)} |"
-    held = [n for n in study.validation.experiments if n not in calibrated(study)]
+    held = [n for n in study.validation.experiments if n not in calibration_signals(study)]
     yield ""
     yield f"Held out, used by no cost: {', '.join(held) or 'none'}."
 
@@ -110,7 +110,7 @@ def absent_parts(strict: StrictSet) -> list[str]:
     return [of.names[n - 1] for n in given if of.fractions[n - 1] == 0.0]
 
 
-def _predictions(written: Sequence[str], asked: Asked, strict: StrictSet) -> Iterator[str]:
+def _predictions(written: Sequence[str], asked: Submission, strict: StrictSet) -> Iterator[str]:
     yield "## Predictions"
     yield ""
     if 4 in asked.forms:

@@ -9,7 +9,7 @@ from pyrofit import __version__
 from pyrofit.config import Study
 from pyrofit.errors import StudyError, suggest
 from pyrofit.experiments import kind_of
-from pyrofit_exchange.macfp.asked import Asked
+from pyrofit_exchange.macfp.asked import Submission
 from pyrofit_exchange.macfp.forms_of_submission import (
     VALIDATION_CASES,
     form_3,
@@ -17,9 +17,9 @@ from pyrofit_exchange.macfp.forms_of_submission import (
     like_experiment,
 )
 from pyrofit_exchange.macfp.material import strict_of
-from pyrofit_exchange.macfp.numeric import numeric
-from pyrofit_exchange.macfp.predict import Case, SlabCurves, simulate_case
-from pyrofit_exchange.macfp.proof import calibrated, write_proofs
+from pyrofit_exchange.macfp.numeric import numeric_material
+from pyrofit_exchange.macfp.predict import IdealSlab, SlabCurves, simulate_case
+from pyrofit_exchange.macfp.proof import calibration_signals, write_proofs
 from pyrofit_exchange.macfp.readme import readme
 from pyrofit_exchange.sets import ParameterSet
 
@@ -30,7 +30,7 @@ _TRANSLUCENT = (
 )
 
 
-def submit(study: Study, chosen: ParameterSet, asked: Asked, folder: Path) -> Iterator[str]:
+def submit(study: Study, chosen: ParameterSet, asked: Submission, folder: Path) -> Iterator[str]:
     """Write all files of a submission into a folder; yield their list and the warnings.
 
     Raises
@@ -43,7 +43,7 @@ def submit(study: Study, chosen: ParameterSet, asked: Asked, folder: Path) -> It
     if asked.like and asked.like not in study.experiments:
         known = [n for n, e in study.experiments.items() if kind_of(e).stage == "imp"]
         raise StudyError(f"there is no experiment '{asked.like}'. {suggest(asked.like, known)}")
-    of, notes = numeric(chosen.material, chosen.values)
+    of, notes = numeric_material(chosen.material, chosen.values)
     about = {
         "Material": asked.material,
         "Lab": asked.institute,
@@ -62,7 +62,7 @@ def submit(study: Study, chosen: ParameterSet, asked: Asked, folder: Path) -> It
     if 4 in asked.forms:
         written += form_4(of, folder / "MaCFP-4", asked.institute, asked.material)
     if 3 in asked.forms:
-        simulate: Callable[[Case], SlabCurves] = partial(simulate_case, of)
+        simulate: Callable[[IdealSlab], SlabCurves] = partial(simulate_case, of)
         if asked.like:
             test = study.experiments[asked.like]
             simulate = like_experiment(chosen.material, test, chosen.values)
@@ -77,7 +77,7 @@ def submit(study: Study, chosen: ParameterSet, asked: Asked, folder: Path) -> It
 
 def calibration(study: Study, chosen: ParameterSet) -> list[dict[str, Any]]:
     """Return how the parameters were found, an entry for each stage."""
-    used = calibrated(study)
+    used = calibration_signals(study)
     entries = []
     for stage, scope in (
         ("kinetics", ["Kinetics"]),
@@ -113,9 +113,9 @@ def _data(study: Study, names: Sequence[str]) -> dict[str, Any]:
     return data
 
 
-def _against_rules(study: Study, asked: Asked) -> Iterator[str]:
+def _against_rules(study: Study, asked: Submission) -> Iterator[str]:
     """Yield the requirements of the guidelines that the study does not meet."""
-    stages = [kind_of(study.experiments[name]).stage for name in calibrated(study)]
+    stages = [kind_of(study.experiments[name]).stage for name in calibration_signals(study)]
     if stages.count("imp") < (1 if "kinetics" in stages else 2):
         yield (
             "the guidelines ask for data of one milligram-scale and one gram-scale test, or of two "

@@ -27,7 +27,7 @@ class Read(NamedTuple):
     mended: tuple[str, ...]
 
 
-def read_json(path: Path) -> Read:
+def read_tolerant_json(path: Path) -> Read:
     """Read a JSON object; mend the faults of hand-written files.
 
     The faults are an encoding other than UTF-8, a missing comma, and a comma before a closing

@@ -7,7 +7,7 @@ import numpy as np
 from pyrofit.model.base import value_of
 from pyrofit.model.material import Material
 from pyrofit_exchange.fds.materials import Values, first_order_parts
-from pyrofit_exchange.fds.namelists import number, unique
+from pyrofit_exchange.fds.namelists import nine_digits, unique
 from pyrofit_exchange.fds.orders import same_half_time
 from pyrofit_exchange.fds.properties import tabulated
 from pyrofit_exchange.fds.remarks import Remark, once
@@ -109,7 +109,7 @@ def _component(
 def _polynomial(p: tuple[float, ...]) -> str:
     """Return p0, p1, p2 and n of p0 + p1 T + p2 T^n."""
     p0, p1, p2 = (*p, 0.0, 0.0)[:3]
-    return "  ".join([number(p0), number(p1), number(p2), "2" if p2 else "0"])
+    return "  ".join([nine_digits(p0), nine_digits(p1), nine_digits(p2), "2" if p2 else "0"])
 
 
 def _block(
@@ -125,8 +125,8 @@ def _block(
     return (
         f"COMPONENT:       {name}\nSTATE:           {state}\n"
         f"DENSITY:         {_polynomial(density)}\nHEAT CAPACITY:   {_polynomial(c)}\n"
-        f"CONDUCTIVITY:    {_polynomial(k)}\nTRANSPORT:       {number(transport)}  0  0  0\n"
-        f"EMISSIVITY & ABSORPTION:  {number(eps)}  {number(absorption)}\n"
+        f"CONDUCTIVITY:    {_polynomial(k)}\nTRANSPORT:       {nine_digits(transport)}  0  0  0\n"
+        f"EMISSIVITY & ABSORPTION:  {nine_digits(eps)}  {nine_digits(absorption)}\n"
     )
 
 
@@ -146,8 +146,9 @@ def _reactions(
             found.append(
                 f"REACTION:       {ids[key]} + NOCOMP -> {product} + NOCOMP\n"
                 "STOICHIOMETRY:  1    0         1    0\n"
-                f"ARRHENIUS:      {number(step.A_1_s * rate * own)}  {number(step.E_J_mol)}\n"
-                f"HEAT:           {number(-step.heat_J_kg)}  0  0  0\n"
+                f"ARRHENIUS:      {nine_digits(step.A_1_s * rate * own)}  "
+                f"{nine_digits(step.E_J_mol)}\n"
+                f"HEAT:           {nine_digits(-step.heat_J_kg)}  0  0  0\n"
                 "TEMP LIMIT:     L  250\n"
             )
     return found

@@ -11,12 +11,12 @@ from pyrofit.model.base import value_of
 from pyrofit.model.heated import HeatedExperiment
 from pyrofit.model.material import Material
 from pyrofit.model.slab import SlabExperiment
-from pyrofit_exchange.fds.exposure import STEP_S, Outside, surroundings
+from pyrofit_exchange.fds.exposure import STEP_S, FdsSurroundings, surroundings
 from pyrofit_exchange.fds.heated import virgin
-from pyrofit_exchange.fds.layers import Layer, own_layers
+from pyrofit_exchange.fds.layers import FdsLayer, own_layers
 from pyrofit_exchange.fds.materials import Values
-from pyrofit_exchange.fds.namelists import number
-from pyrofit_exchange.fds.predicted import Predicted
+from pyrofit_exchange.fds.namelists import nine_digits
+from pyrofit_exchange.fds.predicted import PredictedByPyrofit
 from pyrofit_exchange.fds.remarks import Remark, once
 from pyrofit_exchange.fds.slab import virgin_emissivity
 from pyrofit_exchange.fds.unwritten import unwritten
@@ -34,7 +34,7 @@ def slab_conditions(
     material: Material,
     values: Values,
     components: Components,
-    predicted: Predicted,
+    predicted: PredictedByPyrofit,
 ) -> tuple[str, tuple[Remark, ...]]:
     """Return the conditions of a slab, and the inexact terms."""
     sample = experiment.sample
@@ -51,7 +51,7 @@ def slab_conditions(
     start = value_of(sample.initial_temperature_K, values)
     if sample.foil is not None:
         size = value_of(sample.foil.mass_factor, values) * value_of(sample.foil.thickness_m, values)
-        layers.append(Layer({FOIL: 1.0}, size))
+        layers.append(FdsLayer({FOIL: 1.0}, size))
         if value_of(sample.foil.contact_m2K_W, values):
             what = "resistance between sample and foil (sample.foil.contact_m2K_W)"
             remarks.append(Remark("left out", what, "the foil touches the sample"))
@@ -59,7 +59,7 @@ def slab_conditions(
         what = f"emissivity {outside.emissivity_back:.4g} of the back (back.emissivity)"
         how = f"that of the first test, EMISSIVITY of {BACK} in the component file"
         remarks.append(Remark("approximate", what, how))
-    layers.append(Layer({BACK: 1.0}, FACE_M))
+    layers.append(FdsLayer({BACK: 1.0}, FACE_M))
     parts = "\n".join(_layer(layer, components, start) for layer in layers)
     thinnest = min([ELEMENT_M, *(layer.thickness_m for layer in layers)])
     return (
@@ -69,7 +69,7 @@ def slab_conditions(
     )
 
 
-def _programme(outside: Outside) -> tuple[list[tuple[float, float]], list[Remark]]:
+def _programme(outside: FdsSurroundings) -> tuple[list[tuple[float, float]], list[Remark]]:
     """Return radiation [W/m2] and duration [s] of at most two constant parts."""
     t, q = outside.flux
     ambient = STEFAN_BOLTZMANN * outside.gas_K**4
@@ -84,14 +84,14 @@ def _programme(outside: Outside) -> tuple[list[tuple[float, float]], list[Remark
     return [(mean + ambient, LONG_S)], [remark]
 
 
-def _layer(layer: Layer, components: Components, start: float) -> str:
+def _layer(layer: FdsLayer, components: Components, start: float) -> str:
     shares = [
-        f"{identifier}  {number(share * of)}\n"
+        f"{identifier}  {nine_digits(share * of)}\n"
         for name, share in layer.shares.items()
         for identifier, of in components.parts.get(name, ((name, 1.0),))
     ]
     return (
-        f"THICKNESS:  {number(layer.thickness_m)}\nTEMPERATURE:  {number(start)}\n"
+        f"THICKNESS:  {nine_digits(layer.thickness_m)}\nTEMPERATURE:  {nine_digits(start)}\n"
         f"MASS FRACTIONS:\n{''.join(shares)}"
     )
 
@@ -102,16 +102,16 @@ def _side(name: str, mass: str, T: str, h: float, radiation: list[tuple[float, f
     if radiation:
         shown = "EXTERNAL RADIATION:  YES\n"
         for n, (q, duration) in enumerate(parts, 1):
-            shown += f"TIME PROG{n}:  {number(q)}  0  {number(duration)}\n"
+            shown += f"TIME PROG{n}:  {nine_digits(q)}  0  {nine_digits(duration)}\n"
         shown += "REPEAT:  NO\nABSORPTION MODE:  RAND\n"
     return (
         f"{name} BOUNDARY\n\n{mass}\nOUTSIDE TEMP TIME PROG:  {T}\n"
-        f"CONVECTION COEFF:  {number(h)}\n\n{shown}\nFLAME:  NO\n\n"
+        f"CONVECTION COEFF:  {nine_digits(h)}\n\n{shown}\nFLAME:  NO\n\n"
     )
 
 
-def _boundaries(outside: Outside, front: list[tuple[float, float]]) -> str:
-    gas, back = (f"{number(T)}  0" for T in (outside.gas_K, outside.back_K))
+def _boundaries(outside: FdsSurroundings, front: list[tuple[float, float]]) -> str:
+    gas, back = (f"{nine_digits(T)}  0" for T in (outside.gas_K, outside.back_K))
     ambient = [(STEFAN_BOLTZMANN * outside.back_K**4, LONG_S)]
     behind = ambient if outside.emissivity_back else []
     return (
@@ -124,8 +124,9 @@ def _boundaries(outside: Outside, front: list[tuple[float, float]]) -> str:
 def _integration(element: float, step: float, end: float) -> str:
     return (
         "INTEGRATION PARAMETERS\n**********************\n\n"
-        f"ELEMENT SIZE:  {number(element)}\nTIME STEP:     {number(step)}\n"
-        f"DURATION:      {number(end)}\n\nOUTPUT FREQUENCY:\nELEMENTS:    10\nTIME STEPS:  100\n"
+        f"ELEMENT SIZE:  {nine_digits(element)}\nTIME STEP:     {nine_digits(step)}\n"
+        f"DURATION:      {nine_digits(end)}\n\n"
+        "OUTPUT FREQUENCY:\nELEMENTS:    10\nTIME STEPS:  100\n"
     )
 
 
@@ -135,7 +136,7 @@ def heated_conditions(
     """Return the conditions of a heated sample: a film in gas that heats up."""
     start, rate = experiment.start_temperature_K, experiment.heating_rate_K_min / 60.0
     film = _layer(virgin(material, values)._replace(thickness_m=THIN_M), components, start)
-    T = f"{number(start)}  {number(rate)}"
+    T = f"{nine_digits(start)}  {nine_digits(rate)}"
     sides = _side("TOP", f"MASS TRANSPORT:  YES\n{GAS}  LIN  0.05  0\n", T, 1e5, [])
     sides += _side("BOTTOM", "MASS TRANSPORT:  NO\n", T, 1e5, [])
     step = round(min(0.5, 0.05 / rate), 6)

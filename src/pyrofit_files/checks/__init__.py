@@ -6,19 +6,19 @@ from pyrofit_files.checks import copies, groups, heat, mass, padding, temperatur
 from pyrofit_files.examined import Examined
 
 ALONE: tuple[Callable[[Examined], None], ...] = (
-    time.check_order,
+    time.check_times,
     time.check_start,
     temperature.check_heating_rate,
     temperature.check_range,
     temperature.check_place,
-    mass.check_unit,
+    mass.check_mass_unit,
     mass.check_course,
     mass.check_readme,
     mass.check_density,
-    heat.check_unit,
+    heat.check_heat_unit,
     heat.check_level,
     padding.check_placeholders,
-    padding.check_ends,
+    padding.check_padding,
 )
 """Checks of one file."""
 BETWEEN: tuple[Callable[[Sequence[Examined]], None], ...] = (

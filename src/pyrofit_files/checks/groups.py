@@ -5,13 +5,13 @@ from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
-from pyrofit_files.examined import Examined, FloatArray, Signal
+from pyrofit_files.examined import Examined, FileSignal, FloatArray
 from pyrofit_files.signals import (
     heat_flow,
     heat_release,
     is_heated,
     is_slab,
-    loss,
+    mass_signal,
     slab_mass,
     specific_release,
 )
@@ -145,7 +145,7 @@ def _mass_per_area(seen: Examined) -> float | None:
 
 
 def _half_loss(seen: Examined) -> float | None:
-    signal = loss(seen)
+    signal = mass_signal(seen)
     if signal is None or signal.temperature_K is None:
         return None
     level = signal.y[0] - 0.5 * (signal.y[0] - signal.y[-1])
@@ -181,7 +181,7 @@ def _peak(seen: Examined) -> float | None:
     return None if above is None else float(above[1][np.argmax(np.abs(above[1]))])
 
 
-def _above_line(flow: Signal) -> tuple[FloatArray, FloatArray] | None:
+def _above_line(flow: FileSignal) -> tuple[FloatArray, FloatArray] | None:
     """Return times and heights of a heat flow above the line between 560 K and 720 K."""
     T = flow.temperature_K
     if T is None:

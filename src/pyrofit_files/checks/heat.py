@@ -17,7 +17,7 @@ _NEGATIVE = 0.1
 _START = 0.04
 
 
-def check_unit(seen: Examined) -> None:
+def check_heat_unit(seen: Examined) -> None:
     """Look for values that fit no usual test in the unit that is stated."""
     for find, low, high, unit in _LARGEST:
         if (signal := find(seen)) is not None:

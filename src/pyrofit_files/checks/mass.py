@@ -3,7 +3,7 @@
 import numpy as np
 
 from pyrofit.data.suspect import JUMP, standing_out
-from pyrofit_files.examined import Examined, Signal
+from pyrofit_files.examined import Examined, FileSignal
 from pyrofit_files.signals import heated_mass, is_heated, slab_mass
 
 _MICRO_KG = (5e-7, 1e-4)
@@ -18,11 +18,11 @@ _DENSITY = (50.0, 3000.0)
 """Densities of polymers and woods, with room [kg/m3]."""
 
 
-def _mass_of(seen: Examined) -> Signal | None:
+def _mass_of(seen: Examined) -> FileSignal | None:
     return heated_mass(seen) or slab_mass(seen)
 
 
-def check_unit(seen: Examined) -> None:
+def check_mass_unit(seen: Examined) -> None:
     """Look for fractions under the unit of a mass, and for masses of the wrong order."""
     signal = _mass_of(seen)
     if signal is None:

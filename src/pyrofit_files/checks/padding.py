@@ -25,7 +25,7 @@ def check_placeholders(seen: Examined) -> None:
             seen.say("gaps", "note", text, signal.header)
 
 
-def check_ends(seen: Examined) -> None:
+def check_padding(seen: Examined) -> None:
     """Look for a value that repeats at the end while others go on, or for zeros there."""
     for signal in in_time(seen):
         y = signal.y

@@ -10,7 +10,7 @@ _GAP = 20.0
 _LATE_S = 60.0
 
 
-def check_order(seen: Examined) -> None:
+def check_times(seen: Examined) -> None:
     """Look for times that do not increase, and for gaps and steps of different length."""
     for signal in in_time(seen)[:1]:
         step = np.diff(signal.x)

@@ -71,7 +71,7 @@ def test_intervals_narrow_with_the_sample() -> None:
 def test_base_points_with_a_failed_run_are_replaced_by_others() -> None:
     y = ishigami(sobol.design(256, 3, 1))
     y[[3, 77], 2] = np.nan
-    whole, failed = sobol.filled(y, 1)
+    whole, failed = sobol.replace_failed(y, 1)
     assert failed == 2
     assert np.isfinite(whole).all()
     assert sobol.indices(whole, 1).total[0] == pytest.approx(TOTAL, abs=0.15)

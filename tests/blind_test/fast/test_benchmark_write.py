@@ -17,28 +17,28 @@ from pyrofit_blind_test.benchmark import write as writing
 from pyrofit_blind_test.benchmark.plain import catalogue_table, model_keys
 from pyrofit_blind_test.benchmark.write import answer_rows, write
 from pyrofit_blind_test.places import Places, folder_of
-from pyrofit_blind_test.plan import Case, cases_of
+from pyrofit_blind_test.plan import TwinPlan, cases_of
 from pyrofit_blind_test.setting import Setting, read_setting
-from pyrofit_blind_test.twin import describe
+from pyrofit_blind_test.twin import describe_twin
 
 CONFIG = Path(__file__).parents[3] / "config"
 FDS = CONFIG / "foreign_truth.yaml"
 PLAN = "part"
 
 
-def size(setting: Setting, case: Case, places: Places) -> float:
+def size(setting: Setting, case: TwinPlan, places: Places) -> float:
     return 12.5 if case.hidden else 0.0
 
 
 @pytest.fixture(scope="module")
-def few() -> tuple[Case, ...]:
+def few() -> tuple[TwinPlan, ...]:
     """A set of each kind: no effect, one, two."""
     cases = cases_of(read_setting(FDS), PLAN)
     return tuple({case.kind: case for case in cases}.values())
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory, few: tuple[Case, ...]) -> Path:
+def folder(tmp_path_factory: pytest.TempPathFactory, few: tuple[TwinPlan, ...]) -> Path:
     """The benchmark of these sets, of which one has been diagnosed."""
     root = tmp_path_factory.mktemp("benchmark")
     with pytest.MonkeyPatch.context() as patch:
@@ -68,7 +68,7 @@ def finding(name: str) -> dict[str, object]:
     }
 
 
-def test_sets_hold_what_their_model_names(folder: Path, few: tuple[Case, ...]) -> None:
+def test_sets_hold_what_their_model_names(folder: Path, few: tuple[TwinPlan, ...]) -> None:
     for case in few:
         of = folder / "all" / "sets" / case.id
         model = yaml.safe_load((of / "model.yaml").read_text(encoding="utf-8"))
@@ -80,7 +80,7 @@ def test_sets_hold_what_their_model_names(folder: Path, few: tuple[Case, ...]) -
         assert set(case.hidden) <= set(model["candidates"])
 
 
-def test_only_the_file_of_the_truth_tells_it(folder: Path, few: tuple[Case, ...]) -> None:
+def test_only_the_file_of_the_truth_tells_it(folder: Path, few: tuple[TwinPlan, ...]) -> None:
     truth = score.read(folder / "all" / "truth.csv", writing.TRUTH)
     for case in few:
         of = truth[truth["set"] == case.id]
@@ -108,7 +108,7 @@ def test_the_same_plan_gives_the_same_bytes(folder: Path) -> None:
 
 
 def test_diagnosed_sets_alone_have_the_answer_of_pyrofit(
-    folder: Path, few: tuple[Case, ...]
+    folder: Path, few: tuple[TwinPlan, ...]
 ) -> None:
     assert [p.name for p in (folder / "few" / "sets").iterdir()] == [few[0].id]
     answer = score.read(folder / "few" / "answers" / "pyrofit.csv", score.ANSWER)
@@ -129,7 +129,7 @@ def test_an_answer_has_the_wide_interval_and_is_sure_if_confirmed() -> None:
 def study_of(signals: str) -> Study:
     setting = read_setting(CONFIG / "blind_test.yaml")
     case = next(c for c in cases_of(setting, "full") if c.signals == signals)
-    keys, _ = describe(setting, case)
+    keys, _ = describe_twin(setting, case)
     return as_study(keys, "study.yaml")
 
 
@@ -176,6 +176,6 @@ def test_readme_tells_every_key_of_the_files(folder: Path) -> None:
         assert f"`{word}`" in text or word in text.split("\n## Files")[1]
 
 
-def test_study_of_a_set_is_one_of_pyrofit(folder: Path, few: tuple[Case, ...]) -> None:
+def test_study_of_a_set_is_one_of_pyrofit(folder: Path, few: tuple[TwinPlan, ...]) -> None:
     study = read_study(folder / "all" / "sets" / few[0].id / "study.yaml")
     assert study.synthetic is None

@@ -31,12 +31,12 @@ from pyrofit.results.files import read_json, write_json
 from pyrofit_blind_test.detectability import detectability
 from pyrofit_blind_test.page import TABLES, write_results
 from pyrofit_blind_test.places import Places
-from pyrofit_blind_test.plan import Case, cases_of, chunk_of
-from pyrofit_blind_test.rates import by_detectability, interval, rates
+from pyrofit_blind_test.plan import TwinPlan, cases_of, chunk_of
+from pyrofit_blind_test.rates import by_detectability, rate_interval, rates
 from pyrofit_blind_test.run import run_case, run_chunk
 from pyrofit_blind_test.setting import Setting, read_setting
 from pyrofit_blind_test.table import row_of
-from pyrofit_blind_test.twin import describe, make_twin, read_twin, write_twin
+from pyrofit_blind_test.twin import describe_twin, make_twin, read_twin, write_twin
 
 FILE = Path(__file__).parents[3] / "config" / "blind_test.yaml"
 FORM = {"kind": "form", "strength": 1.0, "signals": "mlr", "noise": "white", "seed": 5}
@@ -49,15 +49,15 @@ def setting() -> Setting:
 
 
 @pytest.fixture(scope="module")
-def full(setting: Setting) -> tuple[Case, ...]:
+def full(setting: Setting) -> tuple[TwinPlan, ...]:
     return cases_of(setting, "full")
 
 
-def case_of(setting: Setting, **wanted: Any) -> Case:
+def case_of(setting: Setting, **wanted: Any) -> TwinPlan:
     return case_of_plan(setting, "develop", **wanted)
 
 
-def case_of_plan(setting: Setting, plan: str, **wanted: Any) -> Case:
+def case_of_plan(setting: Setting, plan: str, **wanted: Any) -> TwinPlan:
     cases = cases_of(setting, plan)
     return next(c for c in cases if all(getattr(c, k) == v for k, v in wanted.items()))
 
@@ -77,7 +77,7 @@ def altered(**changes: Any) -> dict[str, Any]:
 
 
 def test_plan_is_the_same_each_time_and_every_twin_is_another(
-    setting: Setting, full: tuple[Case, ...]
+    setting: Setting, full: tuple[TwinPlan, ...]
 ) -> None:
     assert cases_of(setting, "full") == full
     assert len({case.id for case in full}) == len(full)
@@ -85,7 +85,7 @@ def test_plan_is_the_same_each_time_and_every_twin_is_another(
 
 
 def test_full_plan_hides_every_effect_at_both_strengths_wherever_it_can_be_seen(
-    full: tuple[Case, ...],
+    full: tuple[TwinPlan, ...],
 ) -> None:
     found = {(*c.hidden, c.signals, round(c.strength, 3)) for c in full if c.kind == "effect"}
     sets = dict.fromkeys(known_effects(), ("mlr", "mlr+back", "mlr+back+tga"))
@@ -94,7 +94,7 @@ def test_full_plan_hides_every_effect_at_both_strengths_wherever_it_can_be_seen(
     assert found == {(n, s, part) for n, of in sets.items() for s in of for part in (1.0, 0.333)}
 
 
-def test_full_plan_has_enough_nulls_and_pairs(full: tuple[Case, ...]) -> None:
+def test_full_plan_has_enough_nulls_and_pairs(full: tuple[TwinPlan, ...]) -> None:
     nulls = [(c.signals, c.noise) for c in full if c.kind == "null"]
     assert len(nulls) >= 210
     assert {nulls.count(cell) for cell in set(nulls)} == {len(nulls) // 9}
@@ -104,7 +104,7 @@ def test_full_plan_has_enough_nulls_and_pairs(full: tuple[Case, ...]) -> None:
     assert all(catalogue[a].group != catalogue[b].group for a, b in pairs)
 
 
-def test_each_noise_meets_each_effect(full: tuple[Case, ...]) -> None:
+def test_each_noise_meets_each_effect(full: tuple[TwinPlan, ...]) -> None:
     for name in known_effects().keys() - {"char_oxidation", "tga_lag", "tga_offset"}:
         seen = {c.noise for c in full if c.kind == "effect" and name in c.hidden}
         assert seen == {"white", "measured", "ar0.5"}, name
@@ -126,7 +126,7 @@ def test_seed_of_a_case_does_not_change_when_the_plan_grows(setting: Setting) ->
 
 
 def test_nominal_strengths_are_the_published_ones_and_a_third_is_counted_from_the_null(
-    full: tuple[Case, ...],
+    full: tuple[TwinPlan, ...],
 ) -> None:
     def strengths(name: str) -> list[float]:
         effects = (c for c in full if c.kind == "effect" and name in c.hidden)
@@ -138,14 +138,14 @@ def test_nominal_strengths_are_the_published_ones_and_a_third_is_counted_from_th
     assert strengths("thickness") == pytest.approx([1 + 0.02 / 3, 1.02])
 
 
-def test_twins_are_those_that_were_counted(full: tuple[Case, ...]) -> None:
+def test_twins_are_those_that_were_counted(full: tuple[TwinPlan, ...]) -> None:
     # A case that no catalogue of effects changes; the counts of docs/blind_test.md are of these.
     null = {"kind": "null", "signals": "mlr", "noise": "white"}
     first = next(c for c in full if all(getattr(c, key) == value for key, value in null.items()))
     assert (first.id, first.seed) == ("twin_053cb85435", 7472747)
 
 
-def test_jobs_share_the_cases(full: tuple[Case, ...]) -> None:
+def test_jobs_share_the_cases(full: tuple[TwinPlan, ...]) -> None:
     parts = [chunk_of(full, i, 7) for i in range(7)]
     assert sorted(c.id for part in parts for c in part) == [c.id for c in full]
     assert max(map(len, parts)) - min(map(len, parts)) <= 1
@@ -157,12 +157,14 @@ def test_short_plan_keeps_to_its_numbers(setting: Setting) -> None:
     assert {kind: kinds.count(kind) for kind in most} == dict(most)
 
 
-def test_every_truth_of_the_plan_is_a_valid_study(setting: Setting, full: tuple[Case, ...]) -> None:
+def test_every_truth_of_the_plan_is_a_valid_study(
+    setting: Setting, full: tuple[TwinPlan, ...]
+) -> None:
     # Each combination of effects once, under the signals that show most.
     by_signals = sorted(full, key=lambda c: c.signals)
     shown = {json.dumps([c.hidden, c.error], sort_keys=True): c for c in by_signals}
     for case in shown.values():
-        _, truth = describe(setting, case)
+        _, truth = describe_twin(setting, case)
         assert truth.synthetic is not None
         assert truth.synthetic.effects == case.hidden
 
@@ -231,7 +233,7 @@ def test_twin_holds_no_truth(setting: Setting, tmp_path: Path) -> None:
 
 
 def test_twin_is_fitted_at_two_fluxes_and_predicted_at_a_third(setting: Setting) -> None:
-    study, _ = describe(setting, case_of(setting, kind="null", signals="mlr+back"))
+    study, _ = describe_twin(setting, case_of(setting, kind="null", signals="mlr+back"))
     both = ["mlr", "back_temperature"]
     assert study["diagnosis"]["calibrate"] == {"capa_25": both, "capa_60": both}
     assert study["diagnosis"]["hold_out"] == {"capa_90": both}
@@ -247,7 +249,7 @@ def test_kinetics_are_known_about_the_truth_where_no_tga_tells_them(setting: Set
     for case in cases_of(setting, "develop"):
         if case.kind != "null":
             continue
-        study, truth = describe(setting, case)
+        study, truth = describe_twin(setting, case)
         known = study["known"]
         assert set(known) == (set() if "tga" in case.signals else set(setting.known))
         assert truth.synthetic is not None
@@ -265,7 +267,9 @@ def test_kinetics_are_known_about_the_truth_where_no_tga_tells_them(setting: Set
 def test_noise_of_a_twin_is_of_its_kind_and_of_the_base_s_size(
     setting: Setting, noise: str
 ) -> None:
-    _, truth = describe(setting, case_of(setting, kind="null", noise=noise, signals="mlr+back"))
+    _, truth = describe_twin(
+        setting, case_of(setting, kind="null", noise=noise, signals="mlr+back")
+    )
     mlr = truth.experiments["capa_25"].signals["mlr"].noise
     assert mlr.sd == 2.9e-4
     lag_one = {"white": 0.0, "measured": -0.25, "ar0.5": 0.5}[noise]
@@ -274,7 +278,7 @@ def test_noise_of_a_twin_is_of_its_kind_and_of_the_base_s_size(
 
 def test_form_may_leave_its_effect_out_of_the_candidates(setting: Setting, tmp_path: Path) -> None:
     hidden = {"back_convection": {"change_W_m2K": 4.0}}
-    case = Case(hidden=hidden, without=("back_convection",), **FORM)
+    case = TwinPlan(hidden=hidden, without=("back_convection",), **FORM)
     write_twin(Places(tmp_path), make_twin(setting, case))
     study, _ = read_twin(Places(tmp_path), case.id)
     candidates = candidate_effects(study)
@@ -285,7 +289,7 @@ def test_form_may_leave_its_effect_out_of_the_candidates(setting: Setting, tmp_p
 
 def test_description_of_an_error_is_wrong_where_the_truth_is_not(setting: Setting) -> None:
     case = case_of_plan(setting, "errors", error="cold_back", signals="mlr+back")
-    study, truth = describe(setting, case)
+    study, truth = describe_twin(setting, case)
     told = {name: one["back"]["h_W_m2K"] for name, one in study["experiments"].items()}
     assert told == {"capa_25": 4.0, "capa_60": 4.0, "capa_90": 4.0}
     true = {experiment.back.h_W_m2K for experiment in truth.experiments.values()}
@@ -296,7 +300,7 @@ def test_description_of_an_error_is_wrong_where_the_truth_is_not(setting: Settin
 
 def test_wrong_known_value_is_as_wrong_as_stated(setting: Setting) -> None:
     case = case_of_plan(setting, "errors", error="conductivity", signals="mlr+back+tga")
-    study, truth = describe(setting, case)
+    study, truth = describe_twin(setting, case)
     assert truth.synthetic is not None
     assert study["known"].keys() == {"k_a"}
     known = study["known"]["k_a"]
@@ -445,7 +449,7 @@ def test_result_of_another_source_is_made_again(
 
 def test_effect_left_out_is_no_candidate_nor_its_double(little: Setting, tmp_path: Path) -> None:
     late = {"hidden": {"time_offset": {"delay_s": 5.0}}, "kind": "effect", "left_out": True}
-    case = Case(**{**FORM, **late})
+    case = TwinPlan(**{**FORM, **late})
     fake = Fake()
     found = run_case(little, case, Places(tmp_path), fake)
     first, second = fake.candidates
@@ -456,7 +460,7 @@ def test_effect_left_out_is_no_candidate_nor_its_double(little: Setting, tmp_pat
 
 def test_of_a_pair_the_second_effect_is_left_out(little: Setting, tmp_path: Path) -> None:
     both = {"c_T": {"slope_1_K": 1e-3}, "time_offset": {"delay_s": 5.0}}
-    case = Case(**{**FORM, "hidden": both, "kind": "pair", "left_out": True})
+    case = TwinPlan(**{**FORM, "hidden": both, "kind": "pair", "left_out": True})
     fake = Fake()
     run_case(little, case, Places(tmp_path), fake)
     first, second = fake.candidates
@@ -472,7 +476,7 @@ def test_detectability_is_nil_without_effect_and_grows_with_its_strength(
     setting: Setting,
 ) -> None:
     def of(hidden: dict[str, dict[str, float]]) -> float:
-        case = Case(**{**FORM, "hidden": hidden, "signals": "mlr+back"})
+        case = TwinPlan(**{**FORM, "hidden": hidden, "signals": "mlr+back"})
         twin = make_twin(setting, case)
         return detectability(twin.truth, twin.series, setting.known).size
 
@@ -488,7 +492,7 @@ def test_detectability_is_nil_without_effect_and_grows_with_its_strength(
 def test_detectability_is_searched_from_a_fitted_base_as_well(setting: Setting) -> None:
     hidden = {"flux_level": {"factor": 1.03}}
     given = {"signals": "mlr+back", "noise": "measured", "seed": 7246807}
-    twin = make_twin(setting, Case(**{**FORM, "kind": "effect", "hidden": hidden, **given}))
+    twin = make_twin(setting, TwinPlan(**{**FORM, "kind": "effect", "hidden": hidden, **given}))
     fitted = {
         "T_A": 461.1,
         "E_A": 85.62,
@@ -661,9 +665,9 @@ def test_rates_are_counted() -> None:
 
 def test_interval_of_a_rate_is_clopper_and_pearson_s() -> None:
     # 7 of 10: from the published tables.
-    assert interval(7, 10) == pytest.approx((0.3475, 0.9333), abs=1e-4)
-    assert interval(0, 210)[1] == pytest.approx(1 - 0.025 ** (1 / 210))
-    assert interval(5, 5) == pytest.approx((0.025 ** (1 / 5), 1.0))
+    assert rate_interval(7, 10) == pytest.approx((0.3475, 0.9333), abs=1e-4)
+    assert rate_interval(0, 210)[1] == pytest.approx(1 - 0.025 ** (1 / 210))
+    assert rate_interval(5, 5) == pytest.approx((0.025 ** (1 / 5), 1.0))
 
 
 def test_effects_that_cannot_be_told_apart_count_as_one() -> None:

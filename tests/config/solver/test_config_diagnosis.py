@@ -200,8 +200,8 @@ def test_effect_of_the_truth_is_hidden_from_the_model() -> None:
     study = study_with(synthetic__effects={"back_loss": {"factor": 0.5}})
     plain = study_with()
     assert (study.material, study.experiments) == (plain.material, plain.experiments)
-    assert digest(dependencies.diagnose(study)) == digest(dependencies.diagnose(plain))
-    assert digest(dependencies.data(study)) != digest(dependencies.data(plain))
+    assert digest(dependencies.diagnose_slice(study)) == digest(dependencies.diagnose_slice(plain))
+    assert digest(dependencies.data_slice(study)) != digest(dependencies.data_slice(plain))
 
 
 def test_truth_with_shares_above_one_is_refused() -> None:
@@ -287,7 +287,9 @@ CHANGES: dict[str, tuple[dict[str, Any], bool]] = {
 
 @pytest.mark.parametrize(("change", "seen"), CHANGES.values(), ids=CHANGES)
 def test_diagnosis_depends_on_what_matters_to_it(change: dict[str, Any], seen: bool) -> None:
-    before, after = (digest(dependencies.diagnose(s)) for s in (study_with(), study_with(**change)))
+    before, after = (
+        digest(dependencies.diagnose_slice(s)) for s in (study_with(), study_with(**change))
+    )
     assert (before != after) == seen
 
 
@@ -295,10 +297,10 @@ def test_error_of_a_clock_matters_to_likelihoods_only() -> None:
     of_slab = {"experiments__slab_25__signals__mlr__timing_s": 0}
     before, after = study_with(), study_with(**of_slab)
     steps = {
-        "data": dependencies.data,
+        "data": dependencies.data_slice,
         "imp": lambda study: dependencies.imp(study, "RMSE", "sceua"),
-        "validation": dependencies.validation,
-        "identify": dependencies.identify,
+        "validation": dependencies.validation_slice,
+        "identify": dependencies.identify_slice,
     }
     changed = {n for n, part in steps.items() if digest(part(before)) != digest(part(after))}
     assert changed == {"identify"}

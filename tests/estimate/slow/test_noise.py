@@ -7,7 +7,7 @@ import pytest
 
 from pyrofit.config import read_study
 from pyrofit.cost import Target
-from pyrofit.data.noise import autoregressive, draw, moving_average
+from pyrofit.data.noise import autoregressive, draw_noise, moving_average
 from pyrofit.errors import DataError
 from pyrofit.estimate import scatter
 from pyrofit.estimate.correlation import LOWEST_DENSITY, Correlation, ljung_box, shrunk
@@ -49,7 +49,7 @@ def found(kind: str, seed: int, stated: bool) -> tuple[NoiseModel, float]:
     signal, clean, sd = "mlr", rate(TIME), 3e-4
     if kind == "slow":
         signal, clean, sd = "back_temperature", temperature(TIME), 2.0
-    value = clean + sd * draw(KINDS[kind], np.random.default_rng(seed))
+    value = clean + sd * draw_noise(KINDS[kind], np.random.default_rng(seed))
     target = Target(TIME, value, np.full(TIME.size, sd) if stated else None)
     return estimate_noise(target, known_quantities()[signal]), sd
 
@@ -247,7 +247,7 @@ def test_lags_left_out_by_their_bound_would_not_have_won(
     made: Correlation, known: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     time = np.linspace(0.0, 1.0, 120)
-    noise = draw(made.sequence(120), np.random.default_rng(1))
+    noise = draw_noise(made.sequence(120), np.random.default_rng(1))
     value = np.sin(6.0 * time) + noise
     searched = []
 

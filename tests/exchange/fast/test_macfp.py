@@ -16,10 +16,10 @@ from pyrofit.model.material import Material
 from pyrofit_exchange.macfp.forms import Lines, alike, to_study
 from pyrofit_exchange.macfp.lint import unusual
 from pyrofit_exchange.macfp.material import has_heat, material_of, strict_of
-from pyrofit_exchange.macfp.numeric import numeric
+from pyrofit_exchange.macfp.numeric import numeric_material
 from pyrofit_exchange.macfp.read import read_set
 from pyrofit_exchange.macfp.schema import StrictSet, schema
-from pyrofit_exchange.macfp.tolerant import read_json
+from pyrofit_exchange.macfp.tolerant import read_tolerant_json
 
 ROOT = Path(__file__).parents[3]
 MENDED = {
@@ -47,7 +47,7 @@ def test_text_that_is_no_json_is_mended_and_said(tmp_path: Path, name: str) -> N
     text, wanted, note = MENDED[name]
     path = tmp_path / "set.json"
     path.write_text(text, encoding="utf-8")
-    content, mended = read_json(path)
+    content, mended = read_tolerant_json(path)
     assert content == wanted
     assert len(mended) == 1
     assert note in mended[0]
@@ -56,7 +56,7 @@ def test_text_that_is_no_json_is_mended_and_said(tmp_path: Path, name: str) -> N
 def test_other_encoding_is_read(tmp_path: Path) -> None:
     path = tmp_path / "set.json"
     path.write_bytes('{"Lab": "Unité"}'.encode("cp1252"))
-    content, mended = read_json(path)
+    content, mended = read_tolerant_json(path)
     assert content == {"Lab": "Unité"}
     assert mended == ("line 1: not UTF-8; read as cp1252",)
 
@@ -65,7 +65,7 @@ def test_text_that_cannot_be_mended_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "set.json"
     path.write_text('{"a": }', encoding="utf-8")
     with pytest.raises(DataError, match=r"set\.json, line 1, column 7"):
-        read_json(path)
+        read_tolerant_json(path)
 
 
 @pytest.mark.parametrize("given", [OLD, ZERO_BASED], ids=["by name", "from zero"])
@@ -128,7 +128,7 @@ def simple(**component: Any) -> Material:
 
 def test_changed_property_is_written_as_a_table_that_follows_it() -> None:
     step = {"of": "c", "step": 500.0, "step_temperature_K": 390.0, "step_width_K": 8.0}
-    of, notes = numeric(simple(specific_heat_J_kgK=step), {"w": 0.3, "c": 1400.0})
+    of, notes = numeric_material(simple(specific_heat_J_kgK=step), {"w": 0.3, "c": 1400.0})
     assert notes == ["specific_heat_J_kgK of a is written as a table"]
     heat = strict_of(of, {"Material": "a", "Lab": "b", "Calibration": []}).as_json()
     table = heat["Thermodynamics"]["Heat Capacity"]["Value"][0]
@@ -139,12 +139,12 @@ def test_changed_property_is_written_as_a_table_that_follows_it() -> None:
 
 def test_what_the_data_base_has_no_words_for_is_refused_by_name() -> None:
     known = {"Material": "a", "Lab": "b", "Calibration": []}
-    of, _ = numeric(simple(expansion=1.1), {"w": 0.3})
+    of, _ = numeric_material(simple(expansion=1.1), {"w": 0.3})
     with pytest.raises(DataError, match="an expansion that does not vary"):
         strict_of(of, known)
     given = simple().model_dump()
     given["reactions"]["r"]["products"] = {"b": 0.1, "c": 0.1}
-    of, _ = numeric(Material.model_validate(given), {"w": 0.3})
+    of, _ = numeric_material(Material.model_validate(given), {"w": 0.3})
     with pytest.raises(DataError, match="the reaction of 'a' has several solid products"):
         strict_of(of, known)
 

@@ -17,7 +17,7 @@ from pyrofit.effects import known_effects
 from pyrofit.errors import DataError, StudyError
 from pyrofit.experiments import KINDS, Gasification, kind_of
 from pyrofit.model.accuracy import Accuracy, Resolution
-from pyrofit.quantities.mass import released
+from pyrofit.quantities.mass import mass_released
 from pyrofit.results.files import Results
 from pyrofit.solver.curves import Place
 from pyrofit.stages import measurements
@@ -215,8 +215,8 @@ def test_mass_fraction_is_still_divided_by_a_mass(tmp_path: Path) -> None:
 def test_released_mass_ignores_shaking_and_a_wrong_zero() -> None:
     mass = np.array([6.0, 7.1, 7.0, 7.0, 6.9, 5.0, 3.0, 1.0, 0.5, 0.4, 0.5, 0.5, 0.5])
     time = np.arange(13.0)
-    assert released(time, mass) == 6.5
-    assert released(time, mass + 40.0) == pytest.approx(released(time, mass), abs=1e-12)
+    assert mass_released(time, mass) == 6.5
+    assert mass_released(time, mass + 40.0) == pytest.approx(mass_released(time, mass), abs=1e-12)
 
 
 def _prepared(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, **signal: Any) -> list[str]:

@@ -19,13 +19,13 @@ from pyrofit.config.expand.programs import externals, keeping_runs
 from pyrofit.errors import ProgramError, StudyError
 from pyrofit.estimate.problem import FAILED_COST, Problem, make_problem
 from pyrofit.external import scratch as scratch_module
-from pyrofit.external.filled import filled
+from pyrofit.external.filled import filled_input
 from pyrofit.external.runs import Outcome, outcomes
-from pyrofit.external.scratch import PREFIX, scratch, sweep
+from pyrofit.external.scratch import PREFIX, scratch, sweep_scratch
 from pyrofit.quantities import known_quantities
 from pyrofit.results.files import Results
 from pyrofit.solver.arrays import Status
-from pyrofit.stages.diagnose import diagnose
+from pyrofit.stages.diagnose import diagnose_study
 from pyrofit.stages.measurements import computed, prepare
 from pyrofit.stages.trial import trial
 
@@ -218,10 +218,10 @@ def test_what_a_killed_process_left_is_ended_and_removed(tmp_path: Path) -> None
         assert process.stdout is not None
         process.stdout.readline()
         with scratch() as mine:
-            assert sweep() == 0  # their owners live
+            assert sweep_scratch() == 0  # their owners live
             process.send_signal(signal.SIGKILL)
             process.wait()
-            assert sweep() == 1
+            assert sweep_scratch() == 1
             assert mine.is_dir()
     time.sleep(0.1)
     assert not processes_left_in(tmp_path / "scratch")
@@ -237,7 +237,7 @@ def test_a_folder_is_locked_before_another_process_can_find_it_free(
     def sweep_first(file: Any, kind: int) -> None:
         if not swept:
             swept.append(0)
-            swept[0] = sweep()
+            swept[0] = sweep_scratch()
         lock(file, kind)
 
     monkeypatch.setattr(scratch_module.fcntl, "flock", sweep_first)
@@ -423,7 +423,7 @@ def test_a_program_that_always_fails_stops_before_the_campaign(tmp_path: Path) -
 
 def test_the_diagnosis_refuses_a_model_that_is_not_its_own(tmp_path: Path) -> None:
     with pytest.raises(StudyError, match="an external program has a model of its own"):
-        diagnose(opened(tmp_path), Results(tmp_path), print)
+        diagnose_study(opened(tmp_path), Results(tmp_path), print)
 
 
 # --- FDS and Gpyro --------------------------------------------------------------------------
@@ -494,7 +494,7 @@ def test_the_input_of_gpyro_is_filled_in_its_units(tmp_path: Path) -> None:
     monkey.chmod(0o755)
     program = externals(found)["capa_25"].program
     program = program.model_copy(update={"command": (str(monkey), "pmma.data")})
-    text = filled(program, found.true_values()).content.decode()
+    text = filled_input(program, found.true_values()).content.decode()
     assert "C0(1) = 2250.0" in text
     assert "DHV(1) = 850000.0" in text
     assert "E(1) = 188.0" in text

@@ -11,10 +11,10 @@ import pyrofit as pf
 from pyrofit.results import goodness
 from pyrofit.results.files import Results
 from pyrofit.results.goodness import Goodness
-from pyrofit.scheme.settings import Settings
+from pyrofit.scheme.settings import SchemeSettings
 from pyrofit.stages.more_reactions import more_reactions
 
-FEW = Settings(points=40, most_reactions=2, branches=1, random_starts=1, rounds=1)
+FEW = SchemeSettings(points=40, most_reactions=2, branches=1, random_starts=1, rounds=1)
 PARTS = [(0.5, 150e3, 560.0), (0.5, 200e3, 640.0)]
 """Share, E and temperature of k = 0.001 1/s of two parallel components."""
 

@@ -15,8 +15,8 @@ from shown_studies import described, synthetic
 from pyrofit.config import Study
 from pyrofit.effects import known_effects
 from pyrofit.errors import DataError
-from pyrofit.results.diagnosis import curves as curves_of
 from pyrofit.results.diagnosis import read
+from pyrofit.results.diagnosis import read_curves as curves_of
 from pyrofit.results.diagnosis_candidates import OfCandidate
 from pyrofit.results.diagnosis_schema import VERDICTS, Diagnosis, OfVerdict
 from pyrofit.results.files import Results, write_csv, write_json, write_text
@@ -29,7 +29,7 @@ from pyrofit.show.diagnosis.words import leading, prediction_name, ranked
 from pyrofit.show.diagnosis_page import (
     PAGE,
     draw_all,
-    of_diagnosis,
+    page_of_diagnosis,
     write_diagnosis_tables,
 )
 from pyrofit.show.report import write_report
@@ -250,7 +250,7 @@ def test_a_probe_is_a_factor_or_a_change_with_a_unit(tmp_path: Path) -> None:
 
 def rectangles(study: Study, results: Results) -> None:
     """Write a rectangle for each figure of the diagnosis."""
-    for name in of_diagnosis(study, read(study, results)).figures:
+    for name in page_of_diagnosis(study, read(study, results)).figures:
         write_text(results.diagnosis(f"{name}.svg"), '<svg width="240.95pt"><rect/></svg>')
 
 
@@ -436,7 +436,7 @@ def test_every_figure_belongs_to_some_verdict(tmp_path: Path) -> None:
     shown = set()
     for kind in KINDS:
         study, results = diagnosed(tmp_path / kind, kind)
-        shown |= set(of_diagnosis(study, read(study, results)).figures)
+        shown |= set(page_of_diagnosis(study, read(study, results)).figures)
     curves = {"mass_loss_rate", "back_temperature", "mass_fraction"}
     assert shown == set(report.FIGURES) | curves
 

@@ -16,7 +16,7 @@ from pyrofit.show import style
 from pyrofit.show.curves import tests_of as groups_of
 from pyrofit.show.matrix import draw_matrix
 from pyrofit.show.sections import FIGURES, make_named, make_subject
-from pyrofit.show.subjects.identification.profiles import profiles
+from pyrofit.show.subjects.identification.profiles import draw_profiles_of_parameters
 from pyrofit.show.subjects.kinetics.drawing import slope
 from pyrofit.show.subjects.kinetics.kinetics_all_rates import kinetics_all_rates
 from pyrofit.show.subjects.validation.fig3 import fig3
@@ -138,10 +138,10 @@ def test_running_minima_by_hand() -> None:
         }
     )
     # From call 12, where both finished a generation; the first keeps 3 after it ended.
-    calls, found = running.running_minima(frame, "calls")
+    calls, found = running.minima_on_one_axis(frame, "calls")
     assert calls.tolist() == [12, 20, 25, 30]
     assert found.tolist() == [[5, 3, 3, 3], [4, 4, 2, 1]]
-    generations, found = running.running_minima(frame, "generation")
+    generations, found = running.minima_on_one_axis(frame, "generation")
     assert generations.tolist() == [1, 2, 3]
     assert found.tolist() == [[5, 3, 3], [4, 2, 1]]
 
@@ -149,9 +149,9 @@ def test_running_minima_by_hand() -> None:
 def test_running_mean_is_centred_and_leaves_short_records_alone() -> None:
     series = pd.Series(np.arange(100.0) ** 2)
     # 3 % of 100 points are 3: ((n - 1)^2 + n^2 + (n + 1)^2)/3 = n^2 + 2/3.
-    assert running.running_mean(series)[50] == pytest.approx(2500.0 + 2.0 / 3.0)
+    assert running.smoothed(series)[50] == pytest.approx(2500.0 + 2.0 / 3.0)
     short = pd.Series([1.0, 5.0, 2.0])
-    assert running.running_mean(short).tolist() == [1.0, 5.0, 2.0]
+    assert running.smoothed(short).tolist() == [1.0, 5.0, 2.0]
 
 
 def lightness(colour: str) -> float:
@@ -258,13 +258,16 @@ def test_parameter_at_a_limit_without_a_profile_has_no_empty_panel(tmp_path: Pat
     profiles_path = results.identification("profiles.csv")
     curves = read_csv(profiles_path)
     write_csv(profiles_path, curves[curves["parameter"] != "k"])
-    before = len(profiles(study, results).axes)
+    before = len(draw_profiles_of_parameters(study, results).axes)
     write_csv(path, table)
-    assert len([ax for ax in profiles(study, results).axes if ax.axison]) == before - 1
+    assert (
+        len([ax for ax in draw_profiles_of_parameters(study, results).axes if ax.axison])
+        == before - 1
+    )
     table["bound"] = "upper"
     write_csv(path, table)
     write_csv(profiles_path, curves.iloc[:0])
-    (ax,) = profiles(study, results).axes
+    (ax,) = draw_profiles_of_parameters(study, results).axes
     assert ax.texts[0].get_text() == "all parameters are at limits"
 
 

@@ -11,7 +11,7 @@ from shown_studies import described, fake, made, synthetic
 
 from pyrofit.analysis.answer import one_each
 from pyrofit.analysis.best_predicting import best_predicting
-from pyrofit.analysis.estimates import Estimated, estimated
+from pyrofit.analysis.estimates import Estimated, estimates_of
 from pyrofit.config import Study, as_study
 from pyrofit.errors import DataError
 from pyrofit.model.parameters import Parameter
@@ -23,7 +23,7 @@ from pyrofit.show.report import write_report
 from pyrofit.show.sections import FIGURES, TABLES
 from pyrofit.show.subjects.answer.next_steps import advice, next_steps
 from pyrofit.show.subjects.answer.summary import summary
-from pyrofit.show.subjects.truth.sentences import errors as sentences
+from pyrofit.show.subjects.truth.sentences import errors_of_sets as sentences
 from pyrofit.show.table import write_table
 from pyrofit.steps.posterior import record as posterior
 from pyrofit.steps.rescore import record as rescored
@@ -229,7 +229,7 @@ def test_parameter_of_both_stages_has_the_value_of_the_last_one(tmp_path: Path) 
 def estimated_of(study: Study, results: Results, stage: str) -> list[Estimated]:
     """Return the estimates of a stage of the fake study."""
     alone = as_study(described(), "fake.json")
-    return [e for e in estimated(alone, identification.read(alone, results)) if e.stage == stage]
+    return [e for e in estimates_of(alone, identification.read(alone, results)) if e.stage == stage]
 
 
 def test_best_sets_by_hand(tmp_path: Path) -> None:
@@ -439,7 +439,7 @@ def write_posterior(study: Study, results: Results, converged: bool) -> None:
         "discrepancies": [{"experiment": "slab_25", "signal": "mlr", **lacking}],
         "bands": [],
     }
-    posterior.write(results, posterior.Posterior.model_validate(content))
+    posterior.write(results, posterior.SampledPosterior.model_validate(content))
     write_text(results.of_step("posterior", "parameters.svg"), "<svg/>")
 
 

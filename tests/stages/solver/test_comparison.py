@@ -33,7 +33,7 @@ from pyrofit.stages import compare, fit, measurements, predict
 def explored(top: float, problem: Any = None, seed: int = 1) -> tuple[FloatArray, FloatArray]:
     problem = problem or Valley()
     best = np.array(problem.optimum)
-    return family.explore(problem, best, top, np.random.default_rng(seed))
+    return family.walk_about(problem, best, top, np.random.default_rng(seed))
 
 
 def test_walk_meets_good_sets_alone_and_the_best_first() -> None:
@@ -79,7 +79,7 @@ def test_walk_draws_by_its_generator_alone() -> None:
 
 def test_chosen_sets_are_few_and_lie_apart() -> None:
     scaled = np.random.default_rng(1).random((500, 2))
-    chosen = family.thinned(scaled)
+    chosen = family.farthest_apart(scaled)
     assert chosen[0] == 0
     assert len(set(chosen.tolist())) == chosen.size == family.MOST
     apart = scaled[chosen]
@@ -95,7 +95,7 @@ def test_equal_groups_do_not_differ() -> None:
     same = [np.ones(6), np.ones(6)]
     assert groups.location(same) == (1.0, 0.0)
     assert groups.pair(*same) == (1.0, 0.0)
-    assert groups.spread(same) == 1.0
+    assert groups.spread_test(same) == 1.0
 
 
 def test_groups_that_lie_apart_differ_in_place_and_not_in_scatter() -> None:
@@ -103,13 +103,13 @@ def test_groups_that_lie_apart_differ_in_place_and_not_in_scatter() -> None:
     p, share = groups.location([x, x + 20.0, x + 40.0])
     assert p < 1e-4
     assert share > 0.85
-    assert groups.spread([x, x + 20.0, x + 40.0]) == pytest.approx(1.0)
+    assert groups.spread_test([x, x + 20.0, x + 40.0]) == pytest.approx(1.0)
     assert groups.pair(x + 20.0, x)[1] == 1.0
 
 
 def test_a_group_of_one_value_differs_in_scatter_from_one_that_scatters() -> None:
-    assert groups.spread([np.zeros(9), np.arange(9.0) - 4.0]) < 0.01
-    assert groups.spread([np.zeros(4), np.array([1.0, -1.0, 1.0, -1.0])]) == 0.0
+    assert groups.spread_test([np.zeros(9), np.arange(9.0) - 4.0]) < 0.01
+    assert groups.spread_test([np.zeros(4), np.array([1.0, -1.0, 1.0, -1.0])]) == 0.0
 
 
 def test_too_few_values_are_not_tested() -> None:
@@ -174,7 +174,7 @@ def test_cost_of_a_set_is_that_which_the_searches_minimise(
 def test_metric_of_a_best_set_is_the_score_of_its_prediction(
     study: Study, results: Results
 ) -> None:
-    predict.predict(study, results)
+    predict.predict_sets(study, results)
     predicted = read_csv(results.validation("scores.csv"))
     for place in ("slab_25", "slab_60"):
         here = scores(results).query(f"place == '{place}' and best and found_by == 'SCE-UA'")

@@ -149,10 +149,10 @@ def test_named_channels_replace_those_of_the_costs() -> None:
 
 
 def test_slice_knows_channels_and_limits_and_not_the_repetitions() -> None:
-    base = dependencies.identify(study_with())
-    assert dependencies.identify(study_with(imp__repetitions=7)) == base
-    assert dependencies.identify(study_with(imp__identification=BOTH)) != base
-    assert dependencies.identify(study_with(parameters__rho__upper=2000)) != base
+    base = dependencies.identify_slice(study_with())
+    assert dependencies.identify_slice(study_with(imp__repetitions=7)) == base
+    assert dependencies.identify_slice(study_with(imp__identification=BOTH)) != base
+    assert dependencies.identify_slice(study_with(parameters__rho__upper=2000)) != base
     json.dumps(base["channels"])
 
 

@@ -73,7 +73,9 @@ def test_step_analyses_the_fitted_model_too(study: pf.Study, data: Data, tmp_pat
     # Later conversions depend on the last mass, which this slow model has not reached.
     early = table.loc[table["conversion"] < 0.5, "model_vyazovkin_kJ_mol"]
     assert early.to_numpy() == pytest.approx(half, rel=0.02)
-    assert any("E of the fitted model lies outside" in t for t in isoconversional.findings(results))
+    assert any(
+        "E of the fitted model lies outside" in t for t in isoconversional.read_findings(results)
+    )
 
 
 def test_masses_that_do_not_fall_are_left_out_and_named(
@@ -83,7 +85,7 @@ def test_masses_that_do_not_fall_are_left_out_and_named(
     still = {**data, (name, signal): data[name, signal].assign(**{MASS_FRACTION: 1.0})}
     results = prepared(study, still, tmp_path)
     analyse_masses(study, results, lambda text: None)
-    first, second = isoconversional.findings(results)
+    first, second = isoconversional.read_findings(results)
     assert first.startswith(f"The mass of {name} falls by less than 0.02")
     assert second.startswith("Fewer than two heating programmes are left")
     assert isoconversional.energies(results)["vyazovkin_kJ_mol"].isna().all()
@@ -111,5 +113,5 @@ def test_reactions_that_are_offered_are_kept_beside_the_findings(tmp_path: Path)
     results = Results(tmp_path)
     assert isoconversional.offers(results) == []
     isoconversional.write(results, no_table(), ["E varies."], None, ["Two reactions."])
-    assert isoconversional.findings(results) == ["E varies."]
+    assert isoconversional.read_findings(results) == ["E varies."]
     assert isoconversional.offers(results) == ["Two reactions."]

@@ -36,7 +36,7 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> Results:
     by_hand(study, results)
     fit.collect(study, results)
     estimated_by_hand(results, parameters("RMSE", 9))
-    predict.predict(study, results)
+    predict.predict_sets(study, results)
     return results
 
 
@@ -454,7 +454,7 @@ def test_missing_repetition_is_told(tmp_path: Path) -> None:
 
 
 def test_best_set_of_each_cost_has_its_lowest_cost(results: Results) -> None:
-    best = fit.best_sets(study_with(), results)
+    best = fit.best_set_of_each_cost(study_with(), results)
     assert best["RMSE"] == parameters("RMSE", 1)
     assert best["RANGE"] == parameters("RANGE", 0)  # of equal ones the first
     assert best["BANDS"] == parameters("BANDS", 0)
@@ -517,20 +517,20 @@ def test_scores_are_those_of_the_curves(results: Results) -> None:
 def test_set_that_cannot_be_predicted_is_told(results: Results) -> None:
     study = study_with(accuracy={"cells": 10, "most_steps": 100, "tolerance": 1e-6})
     with pytest.raises(DataError, match=r"slab_25: the set 'estimates' cannot be predicted: "):
-        predict.predict(study, results)
+        predict.predict_sets(study, results)
 
 
 # --- what each step depends on --------------------------------------------------------------
 
 SLICES = {
-    "data": dependencies.data,
+    "data": dependencies.data_slice,
     "kinetics": dependencies.kinetics,
     "RMSE": lambda study: dependencies.imp(study, "RMSE", "sceua"),
     "RANGE": lambda study: dependencies.imp(study, "RANGE", "sceua"),
     "least squares": lambda study: dependencies.imp(study, "RMSE", "least_squares"),
     "CMA-ES": lambda study: dependencies.imp(study, "RMSE", "cmaes"),
-    "collect": dependencies.collect,
-    "validation": dependencies.validation,
+    "collect": dependencies.collect_slice,
+    "validation": dependencies.validation_slice,
     "presentation": dependencies.presentation,
 }
 IMP = {"RMSE", "RANGE", "least squares", "CMA-ES"}
@@ -585,8 +585,8 @@ def test_measured_data_do_not_depend_on_the_material(tmp_path: Path) -> None:
     described["experiments"].pop("tga_20K")
     described["kinetics"]["cost"] = described["kinetics"]["cost"][:1]
     described["synthetic"] = None
-    before = digest(dependencies.data(as_study(described, "study.json")))
+    before = digest(dependencies.data_slice(as_study(described, "study.json")))
     described["parameters"]["rho"]["upper"] = 1600
-    assert digest(dependencies.data(as_study(described, "study.json"))) == before
+    assert digest(dependencies.data_slice(as_study(described, "study.json"))) == before
     described["experiments"]["tga_5K"]["signals"]["mass_fraction"]["until_K"] = 600
-    assert digest(dependencies.data(as_study(described, "study.json"))) != before
+    assert digest(dependencies.data_slice(as_study(described, "study.json"))) != before

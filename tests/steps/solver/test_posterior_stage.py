@@ -20,7 +20,7 @@ from pyrofit.estimate.prior import prior_of
 from pyrofit.estimate.problem import make_problem
 from pyrofit.results import recorded
 from pyrofit.results.files import Results, read_csv, write_csv, write_json
-from pyrofit.results.identification import Noise, write_noise
+from pyrofit.results.identification import StageNoise, write_noise
 from pyrofit.results.step import write_options
 from pyrofit.stages import fit, identify, measurements
 from pyrofit.steps.posterior import record as posterior
@@ -81,7 +81,9 @@ def identified(study: Study, tmp_path_factory: pytest.TempPathFactory) -> Result
     write_csv(results.identification("estimate.csv"), pd.DataFrame(rows))
     channel = noise_of("slab_60", "mlr", points=1, sd=1.0, chi2=1.0)
     chi2 = float(residuals @ residuals)
-    write_noise(results, "imp", Noise(channels=[channel], chi2=chi2, freedom=50.0, dispersion=1.0))
+    write_noise(
+        results, "imp", StageNoise(channels=[channel], chi2=chi2, freedom=50.0, dispersion=1.0)
+    )
     return results
 
 
@@ -147,7 +149,7 @@ def test_ensemble_has_equal_weights_and_files_that_exports_read(
 
 
 def test_bands_of_all_signals_enclose_their_medians(study: Study, results: Results) -> None:
-    frame = posterior.bands(results)
+    frame = posterior.read_predicted_bands(results)
     roles = frame.groupby(["experiment", "signal"])["role"].first().to_dict()
     assert roles[("slab_60", "mlr")] == "fitted"
     assert set(roles.values()) == {"fitted", "held out"}

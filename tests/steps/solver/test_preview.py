@@ -15,15 +15,22 @@ from pyrofit.model.slab import Backing, SlabExperiment
 from pyrofit.results.files import Results, write_csv
 from pyrofit.stages.measurements import computed
 from pyrofit.steps.preview.compute import OF_REPEATS, all_simulated, preview, windows
-from pyrofit.steps.preview.corrections import corrections
-from pyrofit.steps.preview.figures import draw_all
+from pyrofit.steps.preview.corrections import possible_corrections
+from pyrofit.steps.preview.figures import draw_experiments
 from pyrofit.steps.preview.fit import nearest
 from pyrofit.steps.preview.inputs import INPUTS
 from pyrofit.steps.preview.page import PAGE
-from pyrofit.steps.preview.reach import OF_BAND, OF_RANGE, Case, case_of, reached, simulate
-from pyrofit.steps.preview.record import BANDS, Distance, Found, Likely, Window, write
-from pyrofit.steps.preview.sentences import said
-from pyrofit.steps.preview.sets import draw
+from pyrofit.steps.preview.reach import (
+    OF_BAND,
+    OF_RANGE,
+    RecordedCases,
+    case_of,
+    reached,
+    simulate_all,
+)
+from pyrofit.steps.preview.record import BANDS, Likely, NearestSet, Preview, Window, write
+from pyrofit.steps.preview.sentences import sentences_on
+from pyrofit.steps.preview.sets import draw_sets
 
 CONFIG = Path(__file__).parents[3] / "config"
 SMOKE = CONFIG / "smoke.yaml"
@@ -41,7 +48,7 @@ def smoke() -> tuple[Study, Frames]:
 
 def test_sets_fill_the_limits_evenly_and_are_those_of_the_seed() -> None:
     study, _ = smoke()
-    sets = draw(study, study.parameters, 300)
+    sets = draw_sets(study, study.parameters, 300)
     assert sets.names == tuple(study.parameters)
     counts = [np.histogram(column, bins=10, range=(0.0, 1.0))[0] for column in sets.unit.T]
     assert np.min(counts) >= 28
@@ -49,21 +56,21 @@ def test_sets_fill_the_limits_evenly_and_are_those_of_the_seed() -> None:
     rho = np.asarray(sets.values["rho"])
     assert 900.0 <= rho.min() < 905.0
     assert 1495.0 < rho.max() <= 1500.0
-    assert np.array_equal(sets.unit, draw(study, study.parameters, 300).unit)
+    assert np.array_equal(sets.unit, draw_sets(study, study.parameters, 300).unit)
     other = study.model_copy(update={"seed": study.seed + 1})
-    assert not np.array_equal(sets.unit, draw(other, study.parameters, 300).unit)
+    assert not np.array_equal(sets.unit, draw_sets(other, study.parameters, 300).unit)
 
 
 def test_sets_stay_near_known_values() -> None:
     given = smoke()[0].model_dump(mode="json", exclude_defaults=True)
     study = as_study({**given, "known": {"rho": {"value": 1200.0, "sd": 10.0}}}, "smoke.json")
-    rho = np.asarray(draw(study, study.parameters, 100).values["rho"])
+    rho = np.asarray(draw_sets(study, study.parameters, 100).values["rho"])
     assert 1170.0 <= rho.min() < rho.max() <= 1230.0
 
 
 def test_sets_at_ends_hold_all_other_parameters() -> None:
     study, _ = smoke()
-    sets = draw(study, study.parameters, 4)
+    sets = draw_sets(study, study.parameters, 4)
     ends = sets.at_ends("k")
     assert np.asarray(ends.values["k"]).tolist() == [0.1] * 4 + [0.4] * 4
     assert np.array_equal(np.asarray(ends.values["cp"])[:4], np.asarray(ends.values["cp"])[4:])
@@ -104,7 +111,7 @@ def test_record_that_no_curve_finishes_for_is_far_from_all_sets_and_not_outside(
 def test_window_has_its_ends_its_side_and_its_size() -> None:
     study, _ = smoke()
     frame = pd.DataFrame({"time_s": np.arange(6.0), "mlr_kg_m2_s": [0.0, 0.0, 9.0, 9.0, 0.0, 0.0]})
-    case = Case(study.experiments, {("slab_25", "mlr"): frame})
+    case = RecordedCases(study.experiments, {("slab_25", "mlr"): frame})
     curves = np.array([[0.0, 1.0, 1.0, 1.0, 1.0, 0.0], [0.0, 2.0, 3.0, 2.0, 3.0, 0.0]])
     one = reached(frame["mlr_kg_m2_s"].to_numpy(), curves, np.zeros(6))
     first, above, last = windows(case, ("slab_25", "mlr"), one)
@@ -120,7 +127,7 @@ def test_corrections_undo_what_their_words_say() -> None:
     study, frames = smoke()
     case = case_of(study, frames)
     channel = "slab_25", "mlr"
-    found = list(corrections(case, [channel], [channel]))
+    found = list(possible_corrections(case, [channel], [channel]))
     assert len({one.words for one in found}) == len(found)
     (flux,) = [one for one in found if one.words == "the flux of slab_25 is 10 times too large"]
     assert flux.change(case).experiments["slab_25"].front.flux_factor == pytest.approx(0.1)  # type: ignore[attr-defined]
@@ -131,7 +138,7 @@ def test_corrections_undo_what_their_words_say() -> None:
     (swap,) = [one for one in found if one.words == "the files of slab_25 and slab_60 are swapped"]
     assert swap.change(case).frames["slab_60", "mlr"] is case.frames[channel]
     # A record that lies inside for the most part is not wrong by ten.
-    rest = [one.words for one in corrections(case, [channel], [])]
+    rest = [one.words for one in possible_corrections(case, [channel], [])]
     assert not any("10 times too large: area" in words for words in rest)
     assert any("4 times too large: area" in words for words in rest)
 
@@ -155,13 +162,13 @@ def test_baseline_of_an_instrument_is_a_line_that_leaves_a_usual_specific_heat()
         ("a", "mass_fraction"): frame.assign(mass_fraction=mass),
     }
     words = "the heat flow of a holds a baseline of the instrument"
-    case = Case({"a": Dsc.model_validate(described)}, frames)
-    (one,) = [c for c in corrections(case, list(frames), []) if c.words.startswith(words)]
+    case = RecordedCases({"a": Dsc.model_validate(described)}, frames)
+    (one,) = [c for c in possible_corrections(case, list(frames), []) if c.words.startswith(words)]
     assert (one.cause, one.places) == ("baseline of the heat flow", ("a",))
     made = one.change(case).frames["a", "heat_flow"]["heat_flow_W_kg"].to_numpy()
     assert made == pytest.approx(own + peak, abs=1.0)
     given = Dsc.model_validate({**described, "baseline": {"level_W_kg": 5.0}})
-    told = corrections(Case({"a": given}, frames), list(frames), [])
+    told = possible_corrections(RecordedCases({"a": given}, frames), list(frames), [])
     assert not [c for c in told if c.words.startswith(words)]
 
 
@@ -169,14 +176,18 @@ def test_thermocouple_before_a_backing_is_that_of_the_interface() -> None:
     study, frames = smoke()
     channels = [("slab_25", "back_temperature"), ("slab_60", "back_temperature")]
     case = case_of(study, {channel: frames[channel] for channel in channels})
-    assert not [c for c in corrections(case, channels, []) if c.cause == "place of a thermocouple"]
+    assert not [
+        c for c in possible_corrections(case, channels, []) if c.cause == "place of a thermocouple"
+    ]
     for name, slab in case.experiments.items():
         if isinstance(slab, SlabExperiment):
             backing = Backing(component="wool", thickness_m=0.02)
             sample = changed(slab.sample, backing=(backing,))
             case = case.with_experiment(name, changed(slab, sample=sample))
     (found,) = [
-        c for c in corrections(case, channels[:1], []) if c.cause == "place of a thermocouple"
+        c
+        for c in possible_corrections(case, channels[:1], [])
+        if c.cause == "place of a thermocouple"
     ]
     assert found.places == ("slab_25", "slab_60")
     made = found.change(case)
@@ -196,7 +207,7 @@ def test_temperatures_in_the_wrong_unit_are_named_first_with_their_window() -> N
     assert (found.windows[0].experiment, found.windows[0].signal) == key
     assert not found.windows[0].above
     assert (found.causes[0].cause, found.causes[0].places) == ("unit of temperature", ["slab_25"])
-    words = list(said(study, found))
+    words = list(sentences_on(study, found))
     assert words[0].startswith("slab_25, back temperature: the data lie below all sets from ")
     assert "the temperatures are in °C, and were read as K" in words[1]
 
@@ -206,9 +217,9 @@ def test_honest_study_is_not_accused_and_each_test_gets_a_figure(tmp_path: Path)
     made = preview(study, frames)
     assert (made.found.windows, made.found.causes, made.found.far) == ([], [], False)
     assert made.found.unmoved == []
-    (sentence,) = said(study, made.found)
+    (sentence,) = sentences_on(study, made.found)
     assert sentence.endswith("300 sets reach the data of all tests (6 records).")
-    draw_all(study, made.bands, made.found, Results(tmp_path), "figures")
+    draw_experiments(study, made.bands, made.found, Results(tmp_path), "figures")
     drawn = {path.stem for path in (tmp_path / "figures").glob("*.png")}
     assert drawn == set(study.experiments)
 
@@ -226,7 +237,7 @@ def test_test_that_no_set_finishes_is_told_and_not_compared() -> None:
     assert made.found.unfinished == {"slab_25": 20, "slab_60": 20}
     assert {one.experiment for one in made.found.nearest} == {"tga_5K", "tga_20K"}
     assert set(made.bands["experiment"]) == {"tga_5K", "tga_20K"}
-    first, *_ = said(study, made.found)
+    first, *_ = sentences_on(study, made.found)
     assert first == (
         "slab_25: 20 of 20 sets within the limits do not finish; its data are not compared."
     )
@@ -236,7 +247,7 @@ def test_study_of_an_external_program_is_told_that_nothing_is_compared() -> None
     study = read_study(CONFIG / "hotplate.yaml")
     made = preview(study, {("plate_50", "mlr"): pd.DataFrame()})
     assert made.bands.empty
-    assert list(said(study, made.found)) == [
+    assert list(sentences_on(study, made.found)) == [
         "Data against limits: pyrofit itself simulates no record; nothing is compared."
     ]
 
@@ -259,11 +270,11 @@ def test_repeats_outside_are_told_beside_the_one_that_is_named() -> None:
         for name in names
     ]
     cause = Likely(cause="flux", places=["slab_25_1"], words="it is", explained=0.9, left=0.01)
-    left = [Distance(experiment=name, signal="mlr", left=0.3) for name in names]
-    found = Found(
+    left = [NearestSet(experiment=name, signal="mlr", left=0.3) for name in names]
+    found = Preview(
         sets=9, unfinished={}, windows=windows, nearest=left, far=True, causes=[cause], unmoved=[]
     )
-    *_, last = said(study, found)
+    *_, last = sentences_on(study, found)
     assert last == "The same may hold for slab_25_2: repeats of slab_25_1 that lie outside, too."
 
 
@@ -272,9 +283,11 @@ def test_signals_of_one_quantity_are_told_apart() -> None:
     given = study.model_dump(mode="json", exclude_defaults=True)
     signals = given["experiments"]["slab_25"]["signals"]
     signals["lower"] = {**signals["back_temperature"], "quantity": "back_temperature"}
-    left = [Distance(experiment="slab_25", signal="lower", left=0.3)]
-    found = Found(sets=9, unfinished={}, windows=[], nearest=left, far=True, causes=[], unmoved=[])
-    first, *_ = said(as_study(given, "smoke.json"), found)
+    left = [NearestSet(experiment="slab_25", signal="lower", left=0.3)]
+    found = Preview(
+        sets=9, unfinished={}, windows=[], nearest=left, far=True, causes=[], unmoved=[]
+    )
+    first, *_ = sentences_on(as_study(given, "smoke.json"), found)
     assert first.endswith("from slab_25, back temperature (lower) (30 %).")
 
 
@@ -292,8 +305,8 @@ def with_repeat(factor: float) -> tuple[Study, Frames]:
 @pytest.mark.parametrize(("factor", "rows"), [(1.0, OF_REPEATS), (10.0, 40)])
 def test_a_further_repeat_takes_few_sets_unless_it_lies_outside(factor: float, rows: int) -> None:
     study, frames = with_repeat(factor)
-    case, sets = case_of(study, frames), draw(study, study.parameters, 40)
-    found, every = all_simulated(study, case, sets), simulate(study, case, sets)
+    case, sets = case_of(study, frames), draw_sets(study, study.parameters, 40)
+    found, every = all_simulated(study, case, sets), simulate_all(study, case, sets)
     first, further = ("slab_60_1", "mlr"), ("slab_60_2", "mlr")
     np.testing.assert_array_equal(found[first], every[first])
     np.testing.assert_array_equal(found[further], every[further][:rows])
@@ -302,7 +315,7 @@ def test_a_further_repeat_takes_few_sets_unless_it_lies_outside(factor: float, r
 def test_no_further_descent_follows_one_that_suffices() -> None:
     study, frames = smoke()
     case = case_of(study, {c: f for c, f in frames.items() if c[0] == "tga_5K"})
-    sets = draw(study, study.parameters, 8)
+    sets = draw_sets(study, study.parameters, 8)
     told: list[bool] = []
     for suffices in (True, False):
         told.clear()
@@ -310,7 +323,7 @@ def test_no_further_descent_follows_one_that_suffices() -> None:
             study,
             case,
             sets,
-            simulate(study, case, sets),
+            simulate_all(study, case, sets),
             lambda left: told.append(bool(left)) or suffices,  # noqa: B023
         )
         assert told == [True] * (1 if suffices else 2)

@@ -16,7 +16,7 @@ from pyrofit.stages import fit, identify, measurements
 from pyrofit.steps.robustness import compute as robustness
 from pyrofit.steps.robustness.page import PAGE
 from pyrofit.steps.robustness.sentences import sentences
-from pyrofit.steps.robustness.twins import NOISE, OUTLIERS, errors, recovered, true_set
+from pyrofit.steps.robustness.twins import NOISE, OUTLIERS, errors_of_twins, recovered, true_set
 
 SMALL = {"noise": [0.001, 2.0], "outliers": [0.2], "draws": 1, "starts": 1}
 NAMES = ("rho", "k", "cp", "eps", "dh")
@@ -37,12 +37,12 @@ def results(study: Study, tmp_path_factory: pytest.TempPathFactory) -> Results:
     return results
 
 
-def twin(study: Study) -> robustness.Twin:
+def twin(study: Study) -> robustness.NoisyTwin:
     """A straight line with noise of 2 and a stated uncertainty of 3."""
     time = np.arange(2000.0)
     line = {"time_s": time, "mlr_kg_m2_s": time, "mlr_uncertainty_kg_m2_s": 3.0}
     key = ("slab_25", "mlr")
-    return robustness.Twin(np.zeros(5), {key: pd.DataFrame(line)}, {key: np.full(2000, 2.0)})
+    return robustness.NoisyTwin(np.zeros(5), {key: pd.DataFrame(line)}, {key: np.full(2000, 2.0)})
 
 
 def noise_of(study: Study, kind: str, level: float, draw: int = 0) -> pd.DataFrame:
@@ -121,7 +121,7 @@ def fitted(study: Study, folder: Path, **off: float) -> Results:
 
 
 def test_errors_are_in_per_cent_of_the_limits(study: Study, tmp_path: Path) -> None:
-    frame = errors(study, fitted(study, tmp_path, k=0.1))
+    frame = errors_of_twins(study, fitted(study, tmp_path, k=0.1))
     quiet = frame[(frame["kind"] == "noise") & (frame["cost_function"] == "RMSE")]
     assert quiet["k"].abs().tolist() == pytest.approx([10.0] * 12)
     assert quiet["rho"].tolist() == pytest.approx([0.0] * 12, abs=1e-9)
@@ -129,13 +129,13 @@ def test_errors_are_in_per_cent_of_the_limits(study: Study, tmp_path: Path) -> N
 
 
 def test_parameter_that_no_cost_function_recovers_is_left_out(study: Study, tmp_path: Path) -> None:
-    frame = errors(study, fitted(study, tmp_path, k=0.3))
+    frame = errors_of_twins(study, fitted(study, tmp_path, k=0.3))
     assert recovered(study, frame) == ["rho", "cp", "eps", "dh"]
     assert frame.loc[frame["kind"] == "noise", "error"].max() == pytest.approx(0.0, abs=1e-9)
 
 
 def test_where_none_is_recovered_all_count(study: Study, tmp_path: Path) -> None:
-    frame = errors(study, fitted(study, tmp_path, **dict.fromkeys(NAMES, 0.3)))
+    frame = errors_of_twins(study, fitted(study, tmp_path, **dict.fromkeys(NAMES, 0.3)))
     assert recovered(study, frame) == list(NAMES)
 
 

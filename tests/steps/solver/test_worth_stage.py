@@ -24,7 +24,7 @@ from pyrofit.steps.worth import record as worth
 from pyrofit.steps.worth.apparatus import lasting_of
 from pyrofit.steps.worth.best_fit import best_fit
 from pyrofit.steps.worth.compute import run
-from pyrofit.steps.worth.facts import remaining
+from pyrofit.steps.worth.facts import share_left
 from pyrofit.steps.worth.page import PAGE
 from pyrofit.steps.worth.planned import Planned, planned
 from pyrofit.steps.worth.sentences import sentences
@@ -165,7 +165,7 @@ def test_tests_are_ranked_and_narrow_what_is_predicted(study: Study, results: Re
 def test_refits_of_drawn_data_agree_with_the_linear_numbers(study: Study, results: Results) -> None:
     found = worth.read(study, results)
     for test in found.tests[:3]:
-        linear, drawn = remaining(found, test), remaining(found, test, checked=True)
+        linear, drawn = share_left(found, test), share_left(found, test, checked=True)
         apart = [drawn[name] - linear[name] for name in linear]
         assert np.mean(np.abs(apart)) < 20.0  # percentage points, of six draws
     assert found.now_checked is not None

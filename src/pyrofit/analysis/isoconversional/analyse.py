@@ -9,12 +9,12 @@ import pandas as pd
 from pyrofit.analysis.isoconversional.curve import Curve
 from pyrofit.analysis.isoconversional.friedman import friedman
 from pyrofit.analysis.isoconversional.kas import kas
-from pyrofit.analysis.isoconversional.levels import LEVELS, Runs, runs_of
+from pyrofit.analysis.isoconversional.levels import LEVELS, RecordsAtLevels, runs_of
 from pyrofit.analysis.isoconversional.line import Energies
 from pyrofit.analysis.isoconversional.vyazovkin import vyazovkin
 from pyrofit.solver.arrays import FloatArray
 
-METHODS: dict[str, Callable[[Runs, float], Energies]] = {
+METHODS: dict[str, Callable[[RecordsAtLevels, float], Energies]] = {
     "friedman": friedman,
     "kas": kas,
     "vyazovkin": vyazovkin,
@@ -41,7 +41,7 @@ class Analysis:
         Standard deviation of the temperature of a record that the errors contain.
     """
 
-    runs: Runs
+    runs: RecordsAtLevels
     energies: dict[str, Energies]
     model: dict[str, Energies]
     temperature_sd_K: float
@@ -112,7 +112,7 @@ def no_table(levels: FloatArray = LEVELS) -> pd.DataFrame:
     return pd.DataFrame({"conversion": np.round(levels, 6), **nothing})
 
 
-def _temperature_sd(runs: Runs) -> float:
+def _temperature_sd(runs: RecordsAtLevels) -> float:
     """Return the scatter of the temperature among repeats, joined with the usual one."""
     # ASSUME: repeats of one laboratory differ by 0.1 to 1 K, as those of the MaCFP data base.
     square, freedom = _WORTH * TEMPERATURE_SD_K * TEMPERATURE_SD_K, _WORTH

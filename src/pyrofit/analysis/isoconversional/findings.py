@@ -28,13 +28,13 @@ def findings(analysis: Analysis) -> list[str]:
     return [text for finding in FINDINGS for text in finding(analysis)]
 
 
-def best(energies: dict[str, Energies]) -> Energies:
+def most_accurate(energies: dict[str, Energies]) -> Energies:
     """Return the energies of advanced Vyazovkin, the most accurate method where E varies."""
     return energies["vyazovkin"]
 
 
 def _varies(analysis: Analysis) -> Iterator[str]:
-    found = best(analysis.energies)
+    found = most_accurate(analysis.energies)
     known = _core(analysis) & np.isfinite(found.value)
     if known.sum() < 2:
         return
@@ -53,7 +53,7 @@ def _varies(analysis: Analysis) -> Iterator[str]:
 def _model(analysis: Analysis) -> Iterator[str]:
     if not analysis.model:
         return
-    found, model = best(analysis.energies), best(analysis.model)
+    found, model = most_accurate(analysis.energies), most_accurate(analysis.model)
     known = np.isfinite(found.value) & np.isfinite(model.value)
     apart = np.abs(model.value - found.value)
     outside = known & (apart > found.error)
@@ -122,7 +122,7 @@ def _incomplete(analysis: Analysis) -> Iterator[str]:
 
 
 def _no_line(analysis: Analysis) -> Iterator[str]:
-    broken = best(analysis.energies).stretch > _NO_LINE
+    broken = most_accurate(analysis.energies).stretch > _NO_LINE
     if broken.any():
         yield (
             f"At conversion {_where(analysis.levels[broken])} the rates do not follow one "
@@ -132,7 +132,7 @@ def _no_line(analysis: Analysis) -> Iterator[str]:
 
 
 def _low(analysis: Analysis) -> Iterator[str]:
-    value = best(analysis.energies).value
+    value = most_accurate(analysis.energies).value
     low = np.isfinite(value) & (value < _LEAST_J_MOL)
     if low.any():
         yield (

@@ -6,13 +6,13 @@ heating programme will do.
 
 import numpy as np
 
-from pyrofit.analysis.isoconversional.levels import Runs
+from pyrofit.analysis.isoconversional.levels import RecordsAtLevels
 from pyrofit.analysis.isoconversional.line import Energies, Points, slopes
 from pyrofit.constants import GAS_CONSTANT
 from pyrofit.numerics import functions
 
 
-def friedman(runs: Runs, temperature_sd_K: float) -> Energies:
+def friedman(runs: RecordsAtLevels, temperature_sd_K: float) -> Energies:
     """Return E [J/mol] of records at levels of conversion.
 
     Parameters

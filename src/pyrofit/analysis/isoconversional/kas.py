@@ -9,13 +9,13 @@ E/(R T) = 14 and less above.
 
 import numpy as np
 
-from pyrofit.analysis.isoconversional.levels import Runs
+from pyrofit.analysis.isoconversional.levels import RecordsAtLevels
 from pyrofit.analysis.isoconversional.line import Energies, Points, slopes
 from pyrofit.constants import GAS_CONSTANT
 from pyrofit.numerics import functions
 
 
-def kas(runs: Runs, temperature_sd_K: float) -> Energies:
+def kas(runs: RecordsAtLevels, temperature_sd_K: float) -> Energies:
     """Return E [J/mol] of the records of a constant heating rate, at levels of conversion.
 
     Parameters
@@ -37,7 +37,7 @@ def kas(runs: Runs, temperature_sd_K: float) -> Energies:
     return slopes(Points(x, y, sd), runs.groups)
 
 
-def _measured_rate(runs: Runs, i: int) -> float:
+def _measured_rate(runs: RecordsAtLevels, i: int) -> float:
     """Return the mean heating rate [K/s] of a record between its first and last level."""
     time, temperature = runs.at[i].time_s, runs.at[i].temperature_K
     known = np.flatnonzero(np.isfinite(time))

@@ -15,7 +15,7 @@ STEP = 0.05
 
 
 @dataclass(frozen=True, eq=False)
-class Runs:
+class RecordsAtLevels:
     """Records at levels of conversion, and at the ends of the step about each.
 
     Parameters
@@ -50,7 +50,7 @@ class Runs:
 
 def runs_of(
     curves: Sequence[Curve], levels: FloatArray = LEVELS, reach: float | None = None
-) -> Runs:
+) -> RecordsAtLevels:
     """Return records at levels of conversion.
 
     All have the same ``reach``, by default the largest that one of them needs.
@@ -60,4 +60,4 @@ def runs_of(
         tuple(crossing(curve, levels + shift, reach) for curve in curves)
         for shift in (0.0, -0.5 * STEP, 0.5 * STEP)
     )
-    return Runs(tuple(curves), levels, reach, at, before, after)
+    return RecordsAtLevels(tuple(curves), levels, reach, at, before, after)

@@ -13,7 +13,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from pyrofit.analysis.isoconversional.levels import Runs
+from pyrofit.analysis.isoconversional.levels import RecordsAtLevels
 from pyrofit.analysis.isoconversional.line import Energies, Points, slopes
 from pyrofit.constants import GAS_CONSTANT
 from pyrofit.numerics import functions
@@ -27,7 +27,7 @@ _SECTIONS = 38
 _GOLDEN = 0.6180339887498949
 
 
-def vyazovkin(runs: Runs, temperature_sd_K: float) -> Energies:
+def vyazovkin(runs: RecordsAtLevels, temperature_sd_K: float) -> Energies:
     """Return E [J/mol] of records at levels of conversion.
 
     Parameters
@@ -81,7 +81,7 @@ class _Step:
         return np.asarray(functions.exp(np.clip(-energy * self.apart, -600.0, 600.0)))
 
 
-def _step(runs: Runs, i: int, k: int) -> _Step | None:
+def _step(runs: RecordsAtLevels, i: int, k: int) -> _Step | None:
     """Return a step of a record, none where the record does not cover it."""
     first, last = runs.before[i].time_s[k], runs.after[i].time_s[k]
     if not (last > first and np.isfinite(runs.at[i].time_s[k])):

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 
 from pyrofit.config.check.expressions import check_expression, ends_of
-from pyrofit.config.check.numbers import check_parameter
+from pyrofit.config.check.numbers import check_entry
 from pyrofit.config.keys.stages import KineticSet
 from pyrofit.config.keys.study import Study
 from pyrofit.config.words import require
@@ -73,7 +73,7 @@ def check_compositions(study: Study) -> None:
             raise ValueError(f"{place}: {error}") from None
         for share in composition.values():
             if isinstance(share, str) and share.isidentifier() and share != REST:
-                check_parameter(study, share, (FRACTION,), place)
+                check_entry(study, share, (FRACTION,), place)
             elif isinstance(share, str) and share != REST:
                 check_expression(study, share, (FRACTION,), place)
         _check_sum(study, composition, place)

@@ -39,7 +39,7 @@ _SAME_UNIT = ("value", "of", "step")
 """Keys of a property whose unit is the property's."""
 
 
-def described(study: Study) -> dict[str, Part]:
+def parts_with_numbers(study: Study) -> dict[str, Part]:
     """Return the parts of a study that hold numbers, by their place."""
     experiments = {f"experiments.{name}": e for name, e in study.experiments.items()}
     return {"material": study.material, **experiments}
@@ -54,19 +54,19 @@ def check_numbers(study: Study) -> None:
         A number, or a value or limit of the parameter in its place, breaks the rule of the place.
         The parameter is unknown, or its unit is that of another quantity.
     """
-    for root, part in described(study).items():
+    for root, part in parts_with_numbers(study).items():
         for place, value, rules in numbers(part, root):
             if isinstance(value, str) and not value.isidentifier():
                 check_expression(study, value, rules, place)
                 continue
             if isinstance(value, str):
-                check_parameter(study, value, rules, place)
+                check_entry(study, value, rules, place)
                 continue
             for rule in rules:
                 require(rule.holds(value), place, f"{value:g} {rule.text}")
 
 
-def check_parameter(study: Study, name: str, rules: Sequence[Rule], place: str) -> None:
+def check_entry(study: Study, name: str, rules: Sequence[Rule], place: str) -> None:
     """Check the entry for a number: that there is one, its value and limits, its unit.
 
     Raises

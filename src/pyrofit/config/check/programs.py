@@ -11,7 +11,7 @@ from pyrofit.config.words import require
 from pyrofit.errors import DataError, ProgramError, suggest
 from pyrofit.external.filled import other_files, template_text, used_parameters
 from pyrofit.external.output import in_si
-from pyrofit.external.template import check_template, places
+from pyrofit.external.template import check_template, places_of_names
 from pyrofit.model.expressions import FUNCTIONS, names_of
 from pyrofit.model.external import ExternalExperiment
 from pyrofit.model.program import Program
@@ -37,7 +37,7 @@ def _check_program(study: Study, place: str, experiment: ExternalExperiment) -> 
         check_template(program.template, text, {*study.parameters, *program.placeholders})
     except ProgramError as error:
         raise ValueError(f"{place}: {error}") from None
-    _check_placeholders(study, place, program, {n for n, _ in places(text)})
+    _check_placeholders(study, place, program, {n for n, _ in places_of_names(text)})
     _check_units(study, place, program, used_parameters(program))
     for key in ("succeeds", "fails"):
         _check_pattern(f"{place}.{key}", getattr(program, key))

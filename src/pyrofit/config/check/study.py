@@ -9,7 +9,7 @@ from pyrofit.config.check.unmeasured import unmeasured
 from pyrofit.config.expand.programs import externals
 from pyrofit.config.keys.study import Study
 from pyrofit.config.uses import (
-    numbers_of,
+    numbers_in_keys,
     parameters_in,
     parameters_of_heated,
 )
@@ -95,7 +95,7 @@ def _check_signals(study: Study) -> None:
             require(
                 not rests_on
                 or name in external
-                or any(x != 0.0 for x in numbers_of(study.material, rests_on)),
+                or any(x != 0.0 for x in numbers_in_keys(study.material, rests_on)),
                 place,
                 f"every {' and '.join(rests_on)} of the material is 0; give at least one",
             )

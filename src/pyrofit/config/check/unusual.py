@@ -48,7 +48,7 @@ _TEXTS = ("placeholders",)
 Number = int | float | str
 
 
-def unusual(study: Study) -> list[str]:
+def unusual_values(study: Study) -> list[str]:
     """Return one sentence for each unusual value or name; a study is valid in spite of them."""
     return [
         *_values(study),

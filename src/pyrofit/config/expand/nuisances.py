@@ -72,7 +72,7 @@ NUISANCES = {
 """By the key of the standard deviation."""
 
 
-def free(keys: Keys, name: str, sds: Mapping[str, float], stages: list[str]) -> Keys:
+def free_numbers(keys: Keys, name: str, sds: Mapping[str, float], stages: list[str]) -> Keys:
     """Return a study's keys with uncertain numbers of an experiment as parameters of known value.
 
     Stages estimate them; where none does, everything is as described.
@@ -133,7 +133,7 @@ def _known(
     }
 
 
-def stages_of(keys: Keys, name: str) -> list[str]:
+def stages_that_fit(keys: Keys, name: str) -> list[str]:
     """Return the stages that fit an experiment; the diagnosis also where it holds it out."""
     return [stage for stage, names in _fitted(keys).items() if name in names]
 

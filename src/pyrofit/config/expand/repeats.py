@@ -6,7 +6,7 @@ from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
 
-from pyrofit.config.expand.nuisances import free, scattered, stages_of
+from pyrofit.config.expand.nuisances import free_numbers, scattered, stages_that_fit
 from pyrofit.config.expand.repeated_names import at_costs, at_names, at_signals
 from pyrofit.config.expand.uncertain import check_family, free_uncertain
 from pyrofit.config.words import in_plain_words, require
@@ -52,7 +52,7 @@ def expand_repeats(given: Mapping[str, Any]) -> Mapping[str, Any]:
     sds = {own: given for test in tests.values() for own, given in test.sds.items()}
     try:
         for own, of in sds.items():
-            keys = free(keys, own, of, stages_of(keys, own))
+            keys = free_numbers(keys, own, of, stages_that_fit(keys, own))
         return scattered(free_uncertain(keys), sds)
     except (AttributeError, KeyError, TypeError):
         return keys  # as above

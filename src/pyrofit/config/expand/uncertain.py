@@ -5,7 +5,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from pyrofit.config.expand.nuisances import NUISANCES, Keys, free, stages_of
+from pyrofit.config.expand.nuisances import NUISANCES, Keys, free_numbers, stages_that_fit
 from pyrofit.config.words import in_plain_words
 from pyrofit.experiments import KINDS
 from pyrofit.model.repeats import Nuisances
@@ -25,7 +25,7 @@ def free_uncertain(keys: Keys) -> Keys:
     Raises
     ------
     ValueError
-        As `free`; or the experiment cannot have it.
+        As `free_numbers`; or the experiment cannot have it.
     """
     for name, experiment in keys["experiments"].items():
         if not isinstance(experiment, Mapping) or experiment.get("uncertain") is None:
@@ -35,8 +35,8 @@ def free_uncertain(keys: Keys) -> Keys:
         kept = {key: given for key, given in experiment.items() if key != "uncertain"}
         kept["repeat"] = {"test": name}
         keys = {**keys, "experiments": {**keys["experiments"], name: kept}}
-        stages = [stage for stage in stages_of(keys, name) if stage == "diagnosis"]
-        keys = free(keys, name, sds, stages)
+        stages = [stage for stage in stages_that_fit(keys, name) if stage == "diagnosis"]
+        keys = free_numbers(keys, name, sds, stages)
     return keys
 
 

@@ -5,7 +5,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from pyrofit.cost import KINDS, NORMALISATIONS, check_options
+from pyrofit.cost import KINDS, NORMALISATIONS, check_cost_options
 from pyrofit.errors import CostError, suggest
 from pyrofit.model.base import Part
 from pyrofit.quantities.base import LIMITS
@@ -35,7 +35,7 @@ class TermSpec(Part):
     @model_validator(mode="after")
     def _check(self) -> Self:
         try:
-            check_options(self.kind, self.all_options())
+            check_cost_options(self.kind, self.all_options())
         except CostError as error:
             raise ValueError(str(error)) from None
         if self.normalisation is not None and self.normalisation not in NORMALISATIONS:
@@ -52,7 +52,7 @@ class TermSpec(Part):
     def _check_limits(self) -> None:
         """Refuse limits of a cost that takes none, or takes them from the uncertainty, too."""
         try:
-            check_options(self.kind, {**self.all_options(), **dict.fromkeys(LIMITS)})
+            check_cost_options(self.kind, {**self.all_options(), **dict.fromkeys(LIMITS)})
         except CostError:
             raise ValueError(f"{self.kind} takes no limits; leave `limits` out") from None
         if "n_sigma" in self.options:

@@ -14,7 +14,7 @@ from pyrofit.diagnose.base.descent import Fit
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.corrections.correction import Correction, Shape
 from pyrofit.diagnose.corrections.fit import corrected, with_coefficients
-from pyrofit.diagnose.corrections.forms import corrections
+from pyrofit.diagnose.corrections.forms import fitted_corrections
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.estimate.posterior import freedom
 from pyrofit.parallel import parallel_map
@@ -66,7 +66,7 @@ def probes(trial: FittedModel, processes: int = 1) -> list[Probe]:
         The lowest chi-square first, 2 added per coefficient; none without a gasification.
     """
     likelihood = trial.model.likelihood
-    wanted = corrections(likelihood.problem, likelihood.values(trial.fit.x))
+    wanted = fitted_corrections(likelihood.problem, likelihood.values(trial.fit.x))
     fits = parallel_map(lambda i: corrected(trial, wanted[i]), len(wanted), processes)
     found = [_probe(trial, *pair) for pair in zip(wanted, fits, strict=True)]
     noise = min([freedom(trial.fit.jacobian, trial.fit.x), *(probe.chi2 for probe in found)])

@@ -29,7 +29,7 @@ class RecordKind:
     timing_s: float
 
 
-def simulated(
+def simulated_test(
     trial: FittedModel, idea: Idea, x: FloatArray, requests: Mapping[str, Request]
 ) -> Curves:
     """Simulate the new test with a model's own description of the one it is like."""
@@ -78,7 +78,7 @@ def _burnt_out(trial: FittedModel, idea: Idea) -> float:
     time = np.arange(
         0.0, SETTINGS.design_longest_s + SETTINGS.design_spacing_s, SETTINGS.design_spacing_s
     )
-    curves = simulated(trial, idea, trial.fit.x, {MASS: Request(time)})
+    curves = simulated_test(trial, idea, trial.fit.x, {MASS: Request(time)})
     if not curves.status.finished:
         return SETTINGS.design_longest_s
     lost = curves.signals[MASS][0] - curves.signals[MASS]

@@ -22,7 +22,7 @@ from pyrofit.diagnose.advise.new_record import (
     kind_of_record,
     noise_of_record,
     requests_of,
-    simulated,
+    simulated_test,
 )
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.settings import SETTINGS
@@ -135,12 +135,12 @@ def _separation(one: _Forecast, other: _Forecast, noise: Mapping[str, NoiseModel
 def _forecast(trial: FittedModel, idea: Idea, requests: Mapping[str, Request]) -> _Forecast | None:
     """Return the predictions of a model; None where a run does not finish."""
     x = trial.fit.x
-    curves = simulated(trial, idea, x, requests)
+    curves = simulated_test(trial, idea, x, requests)
     if not curves.status.finished:
         return None
 
     def stacked(X: FloatArray) -> list[FloatArray | None]:
-        runs = [simulated(trial, idea, there, requests) for there in X]
+        runs = [simulated_test(trial, idea, there, requests) for there in X]
         return [_stacked(run, requests) if run.status.finished else None for run in runs]
 
     here = _stacked(curves, requests)

@@ -10,10 +10,10 @@ from pyrofit.estimate.bounded_least_squares import Fit, minimise
 from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
 
-__all__ = ["Fit", "descend", "refreshed"]
+__all__ = ["Fit", "descend_chi_square", "refreshed"]
 
 
-def descend(
+def descend_chi_square(
     model: Model,
     x: FloatArray,
     jacobian: FloatArray | None = None,

@@ -6,7 +6,7 @@ import numpy as np
 
 from pyrofit.cost import WeightedSum, make_term
 from pyrofit.cost.term import Term
-from pyrofit.data.noise import draw
+from pyrofit.data.noise import draw_noise
 from pyrofit.diagnose.base.model import Base
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.estimate.noise import NoiseModel
@@ -47,7 +47,7 @@ def drawn(noise: NoiseModel, rng: np.random.Generator) -> FloatArray:
     e = sd L z + U u, with the autocorrelation L L^T, the lasting scatter U between repeats, and
     standard normal z and u.
     """
-    e = noise.sd * draw(noise.correlation.sequence(noise.sd.size), rng)
+    e = noise.sd * draw_noise(noise.correlation.sequence(noise.sd.size), rng)
     if noise.modes is not None:
         e = e + linear.product(noise.modes, rng.standard_normal(noise.modes.shape[1]))
     return np.asarray(e)

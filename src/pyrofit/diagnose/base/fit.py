@@ -7,7 +7,7 @@ import numpy as np
 from scipy.stats import qmc
 
 from pyrofit.config import Study, calibration_channels, candidate_effects, held_out_channels
-from pyrofit.diagnose.base.descent import Fit, descend, refreshed
+from pyrofit.diagnose.base.descent import Fit, descend_chi_square, refreshed
 from pyrofit.diagnose.base.disturbed import disturbed
 from pyrofit.diagnose.base.fitted import FittedModel, polished
 from pyrofit.diagnose.base.long_run import significant_factor
@@ -128,7 +128,7 @@ def fitted_from_starts(
     ahead = [_chi2(residuals) for residuals in model.residuals_all(np.array(starts))]
     starts = [starts[k] for k in np.argsort(ahead, kind="stable")]
     first = starts[: SETTINGS.base_descents]
-    ends = parallel_map(lambda k: descend(model, first[k]), len(first), processes)
+    ends = parallel_map(lambda k: descend_chi_square(model, first[k]), len(first), processes)
     ends = sorted(ends, key=lambda end: end.chi2)
     best = ends[0]
     if np.any(best.residuals[: model.points] == FAILED):
@@ -228,7 +228,7 @@ def refitted_all(
 
 
 def _refit(model: Model, x: FloatArray) -> Fit:
-    return refreshed(model, descend(model, x))
+    return refreshed(model, descend_chi_square(model, x))
 
 
 def has_better_noise(other: Base, base: Base) -> bool:

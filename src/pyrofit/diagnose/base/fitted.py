@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pyrofit.diagnose.base.descent import Fit, descend, refreshed
+from pyrofit.diagnose.base.descent import Fit, descend_chi_square, refreshed
 from pyrofit.diagnose.base.model import Model, model_of, strength_of
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.estimate.posterior import Posterior, covariance, limit_of
@@ -67,7 +67,7 @@ class FittedModel:
 
 def followed(trial: FittedModel) -> FittedModel:
     """Return a rough fit followed to its end."""
-    return lower_of(trial, descend(trial.model, trial.fit.x, trial.fit.jacobian))
+    return lower_of(trial, descend_chi_square(trial.model, trial.fit.x, trial.fit.jacobian))
 
 
 def lower_of(trial: FittedModel, end: Fit) -> FittedModel:
@@ -117,7 +117,7 @@ def _ends(begins: Sequence[tuple[FittedModel, FloatArray]], processes: int) -> l
 def _from(trial: FittedModel, x: FloatArray) -> Fit:
     """Return where a rough descent from x ends, followed to its end if it ends lower."""
     begin, rough = trial.fit.jacobian, SETTINGS.rough_gain
-    end = descend(trial.model, x, begin, enough=rough, known=trial.fit)
+    end = descend_chi_square(trial.model, x, begin, enough=rough, known=trial.fit)
     return followed(replace(trial, fit=end)).fit if end.chi2 < trial.fit.chi2 else end
 
 
@@ -150,7 +150,7 @@ def finishes(trial: FittedModel) -> bool:
     return held_out.likelihood.curves(trial.fit.x) is not None
 
 
-def misfits(trial: FittedModel) -> bool:
+def misfits_badly(trial: FittedModel) -> bool:
     """Tell whether a signal misfits so much that its misfit was not mistaken for noise."""
     parts = trial.model.by_channel(trial.fit.residuals)
     return any(float(np.mean(part**2)) > SETTINGS.misfit_chi2_per_point for part in parts)

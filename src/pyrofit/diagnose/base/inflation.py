@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pyrofit.diagnose.base.fitted import FittedModel
-from pyrofit.diagnose.base.long_run import factor_of, significant_factor
+from pyrofit.diagnose.base.long_run import long_run_factor, significant_factor
 from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
 
@@ -45,7 +45,7 @@ def none_for(trial: FittedModel) -> Inflation:
 
 def by_misfit(trial: FittedModel) -> Inflation:
     """Return the inflation by the residuals of a model."""
-    return Inflation(tuple(map(factor_of, trial.model.by_channel(trial.fit.residuals))))
+    return Inflation(tuple(map(long_run_factor, trial.model.by_channel(trial.fit.residuals))))
 
 
 def by_significant_misfit(trial: FittedModel) -> Inflation:

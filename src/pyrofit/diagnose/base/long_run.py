@@ -17,7 +17,7 @@ from pyrofit.estimate.apparatus import LASTING
 from pyrofit.solver.arrays import FloatArray
 
 
-def factor_of(w: FloatArray) -> float:
+def long_run_factor(w: FloatArray) -> float:
     """Return the factor of a signal with whitened residuals w."""
     return max(1.0, long_run_variance(w), float(np.mean(w**2)))
 

@@ -15,7 +15,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from pyrofit.diagnose.base.descent import Fit, descend
+from pyrofit.diagnose.base.descent import Fit, descend_chi_square
 from pyrofit.diagnose.base.fitted import FittedModel, up_to_date
 from pyrofit.diagnose.base.model import Base, Model, model_of
 from pyrofit.estimate.posterior import curvature
@@ -48,7 +48,7 @@ class Predictions:
         return sum(self.scores.values())
 
 
-def forecast(part: Fit, whole: Fit) -> float:
+def score_forecast(part: Fit, whole: Fit) -> float:
     """Return the log score of the signals that are fitted in the whole, but not in a part."""
     misfit = whole.chi2 - part.chi2
     return -0.5 * (misfit + _log_det(whole) - _log_det(part))
@@ -58,7 +58,7 @@ def _log_det(fit: Fit) -> float:
     return linear.log_det(curvature(fit.jacobian))
 
 
-def slabs(trial: FittedModel) -> list[str]:
+def slab_experiments(trial: FittedModel) -> list[str]:
     """Return the calibrated experiments that show the slab: without any of them others remain."""
     base = trial.model.base
     found = [base.channels[i] for i in trial.model.channels]
@@ -67,7 +67,7 @@ def slabs(trial: FittedModel) -> list[str]:
     return list(names) if len(names) > 1 else []
 
 
-def predictions(
+def model_predictions(
     trials: Sequence[FittedModel],
     processes: int = 1,
     held_out: bool = True,
@@ -96,7 +96,7 @@ def predictions(
         if not name.startswith(HELD_OUT):
             part, joint = joint, part
         if name != HELD_OUT or not _several(trials[k]):
-            found[k].scores[name] = forecast(part.fit, joint.fit)
+            found[k].scores[name] = score_forecast(part.fit, joint.fit)
             found[k].residuals[name] = _added(part, joint)
             found[k].parts[name] = part
             used = part.model.channels
@@ -114,7 +114,7 @@ def _tasks(trial: FittedModel, held_out: bool, whole: bool) -> list[str]:
     """Return the predictions of a model: all held out, each of several places, each left out."""
     several = _several(trial)
     at_once = [HELD_OUT] if trial.model.base.held_out and (whole or not several) else []
-    return [*(at_once + several if held_out else []), *slabs(trial)]
+    return [*(at_once + several if held_out else []), *slab_experiments(trial)]
 
 
 def _several(trial: FittedModel) -> list[str]:
@@ -156,7 +156,7 @@ def _model_for(trial: FittedModel, prediction: str) -> Model:
 def _refit(trial: FittedModel, prediction: str) -> FittedModel:
     model = _model_for(trial, prediction)
     begin = _derivatives(trial, model) if trial.fit.fresh else None
-    return up_to_date(FittedModel(model, descend(model, trial.fit.x, begin)))
+    return up_to_date(FittedModel(model, descend_chi_square(model, trial.fit.x, begin)))
 
 
 def _derivatives(trial: FittedModel, model: Model) -> FloatArray:

@@ -77,7 +77,7 @@ def _changed(part: Any, update: Mapping[str, Any]) -> Any:
     return changed(part, **inner)
 
 
-def names_of(probe: str, count: int) -> tuple[str, ...]:
+def coefficient_names(probe: str, count: int) -> tuple[str, ...]:
     """Return the names of a correction's coefficients."""
     return tuple(f"probe_{probe}_{k}" for k in range(count))
 
@@ -88,7 +88,7 @@ def slabs_of(problem: Problem) -> dict[str, SlabExperiment]:
     return {name: e for name, e in found.items() if isinstance(e, SlabExperiment)}
 
 
-def times_of(problem: Problem) -> dict[str, FloatArray]:
+def times_of_record(problem: Problem) -> dict[str, FloatArray]:
     """Return the times of a record of each gasification."""
     return {
         name: next(iter(problem.runs[name].requests.values())).time_s for name in slabs_of(problem)

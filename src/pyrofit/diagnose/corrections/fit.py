@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from pyrofit.diagnose.base.descent import Fit, descend
+from pyrofit.diagnose.base.descent import Fit, descend_chi_square
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import Model
 from pyrofit.diagnose.corrections.correction import Correction
@@ -18,7 +18,7 @@ def corrected(trial: FittedModel, correction: Correction, x: FloatArray | None =
     """Fit all parameters and the coefficients, from x or the model's fit, where these are zero."""
     none = np.full(len(correction.sd), 0.5)
     start = np.append(trial.fit.x if x is None else x, none)
-    return descend(with_coefficients(trial.model, correction), start)
+    return descend_chi_square(with_coefficients(trial.model, correction), start)
 
 
 def with_coefficients(model: Model, correction: Correction) -> Model:

@@ -6,10 +6,10 @@ from pyrofit.diagnose.corrections.correction import (
     Correction,
     Shape,
     Values,
+    coefficient_names,
     derived,
-    names_of,
     slabs_of,
-    times_of,
+    times_of_record,
 )
 from pyrofit.diagnose.corrections.flux_tables import described_at, merged, table_of
 from pyrofit.diagnose.settings import SETTINGS
@@ -19,12 +19,14 @@ from pyrofit.model.time_table import TimeTable
 
 def flux(problem: Problem) -> Correction:
     """Make q(t) = q_0(t) (1 + c(t)), c linear between knots that lie closest at the start."""
-    end = max(float(times[-1]) for times in times_of(problem).values())
+    end = max(float(times[-1]) for times in times_of_record(problem).values())
     knots = end * np.linspace(0.0, 1.0, SETTINGS.correction_coefficients) ** 2
-    names = names_of("flux", SETTINGS.correction_coefficients)
+    names = coefficient_names("flux", SETTINGS.correction_coefficients)
     described = {name: table_of(slab.front.flux_W_m2) for name, slab in slabs_of(problem).items()}
     time = {name: merged(table.time_s, knots) for name, table in described.items()}
-    own = {name: names_of(f"flux_{i}_at", len(time[name])) for i, name in enumerate(described)}
+    own = {
+        name: coefficient_names(f"flux_{i}_at", len(time[name])) for i, name in enumerate(described)
+    }
     fronts = {
         name: {"flux_W_m2": TimeTable(time_s=time[name], value=own[name])} for name in described
     }

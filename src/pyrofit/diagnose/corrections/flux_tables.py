@@ -29,7 +29,7 @@ def described_at(
     return np.asarray(flux)
 
 
-def named(given: OverTime, name: str) -> OverTime:
+def named_numbers(given: OverTime, name: str) -> OverTime:
     """Return a name in place of a number, or one in place of each of a table."""
     if not isinstance(given, TimeTable):
         return name

@@ -6,8 +6,8 @@ from pyrofit.diagnose.corrections.correction import (
     Correction,
     Shape,
     Values,
+    coefficient_names,
     derived,
-    names_of,
     slabs_of,
 )
 from pyrofit.estimate.problem import Problem
@@ -21,7 +21,7 @@ or 3 % of 6 mm of a polymer."""
 
 def foil_capacity(problem: Problem, T: tuple[float, float]) -> Correction:
     """Make C = C_0 + c, the heat capacity of the foil per area, at least zero."""
-    (name,) = names_of("foil_heat_capacity", 1)
+    (name,) = coefficient_names("foil_heat_capacity", 1)
     foils = {n: slab.sample.foil for n, slab in slabs_of(problem).items() if slab.sample.foil}
     own = {n: f"probe_foil_{i}_factor" for i, n in enumerate(foils)}
 

@@ -4,7 +4,7 @@ They change the flux over time, conductivity and heat capacity over temperature,
 and back, or the heat capacity of the foil. They are the same for all experiments.
 """
 
-from pyrofit.diagnose.corrections.correction import Correction, Values, slabs_of, times_of
+from pyrofit.diagnose.corrections.correction import Correction, Values, slabs_of, times_of_record
 from pyrofit.diagnose.corrections.flux import flux
 from pyrofit.diagnose.corrections.foil import foil_capacity
 from pyrofit.diagnose.corrections.losses import loss
@@ -29,7 +29,7 @@ SAME_TERM = {
 """Groups of effects that change the same term of the model, by correction."""
 
 
-def corrections(problem: Problem, x: FloatArray) -> list[Correction]:
+def fitted_corrections(problem: Problem, x: FloatArray) -> list[Correction]:
     """Return all corrections of a problem about fitted values x [SI]; none without gasification."""
     if not slabs_of(problem):
         return []
@@ -48,7 +48,7 @@ def _temperatures(problem: Problem, values: Values) -> tuple[float, float]:
     """Return the range of the sample's temperatures: from the start to the front's highest [K]."""
     low, high = [], []
     for name, slab in slabs_of(problem).items():
-        at = Request(times_of(problem)[name])
+        at = Request(times_of_record(problem)[name])
         asked = {MASS: at, FRONT: at}
         curves = simulate_gasification(slab, problem.material, values, asked, problem.accuracy)
         mass, front = curves.signals[MASS], curves.signals[FRONT]

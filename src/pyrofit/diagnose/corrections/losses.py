@@ -6,11 +6,11 @@ from pyrofit.diagnose.corrections.correction import (
     Correction,
     Shape,
     Values,
+    coefficient_names,
     derived,
-    names_of,
     slabs_of,
 )
-from pyrofit.diagnose.corrections.flux_tables import named, table_of
+from pyrofit.diagnose.corrections.flux_tables import named_numbers, table_of
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects.base import changed, has_open_back
 from pyrofit.estimate.problem import Problem
@@ -26,11 +26,11 @@ LOSS_SD = {"gas_temperature_K": 30.0, "h_change_W_m2K": 6.0, "h_cube_root_W_m2K4
 
 def loss(problem: Problem, T: tuple[float, float], side: str) -> Correction:
     """Make q = (h_0 + c_1)(T_s - T_g) + (C_0 + c_2)(T_s - T_g)^(4/3), with T_g = T_gas + c_0."""
-    names = dict(zip(LOSS_SD, names_of(f"{side}_heat_loss", len(LOSS_SD)), strict=True))
+    names = dict(zip(LOSS_SD, coefficient_names(f"{side}_heat_loss", len(LOSS_SD)), strict=True))
     slabs = {n: s for n, s in slabs_of(problem).items() if side == "front" or has_open_back(s)}
     described = {name: getattr(slab, side) for name, slab in slabs.items()}
     own = {
-        name: {key: named(getattr(face, key), f"probe_{side}_{key}_{i}") for key in LOSS_SD}
+        name: {key: named_numbers(getattr(face, key), f"probe_{side}_{key}_{i}") for key in LOSS_SD}
         for i, (name, face) in enumerate(described.items())
     }
 

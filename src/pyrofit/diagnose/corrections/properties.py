@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from pyrofit.diagnose.corrections.correction import Correction, Shape, Values, names_of
+from pyrofit.diagnose.corrections.correction import Correction, Shape, Values, coefficient_names
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects.substance import properties_changed, shares
 from pyrofit.estimate.problem import Problem
@@ -25,7 +25,7 @@ PROPERTIES = {
 def of_property(problem: Problem, values: Values, T: tuple[float, float], probe: str) -> Correction:
     """Make p(T) = p_0(T) + sum_k c_k exp(-((T - T_k)/w)^2/2)/(sqrt(2 pi) w), of all components."""
     key, unit, what = PROPERTIES[probe]
-    names = names_of(probe, SETTINGS.correction_coefficients)
+    names = coefficient_names(probe, SETTINGS.correction_coefficients)
     centres = np.linspace(*T, SETTINGS.correction_coefficients)
     width = 0.5 * float(centres[1] - centres[0])
     area = width * float(np.sqrt(2.0 * np.pi))

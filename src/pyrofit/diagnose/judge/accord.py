@@ -13,7 +13,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from pyrofit.diagnose.base.descent import descend
+from pyrofit.diagnose.base.descent import descend_chi_square
 from pyrofit.diagnose.base.fit import refitted
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import model_of
@@ -140,7 +140,7 @@ def _without_known(trial: FittedModel, names: Sequence[str]) -> FittedModel:
         replace(base, likelihood=likelihood), trial.model.effects, trial.model.channels
     )
     x = model.likelihood.scaled(trial.model.likelihood.values(trial.fit.x))
-    return FittedModel(model, descend(model, x))
+    return FittedModel(model, descend_chi_square(model, x))
 
 
 def _held(trial: FittedModel) -> FittedModel:

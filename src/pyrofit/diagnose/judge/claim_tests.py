@@ -15,7 +15,7 @@ from pyrofit.diagnose.base.adequacy import lack_of_fit
 from pyrofit.diagnose.base.fit import refitted, with_noise_about
 from pyrofit.diagnose.base.fitted import FittedModel, at_limit, implausible
 from pyrofit.diagnose.base.inflation import Inflation
-from pyrofit.diagnose.base.long_run import factor_of
+from pyrofit.diagnose.base.long_run import long_run_factor
 from pyrofit.diagnose.base.prediction import HELD_OUT, Predictions
 from pyrofit.diagnose.judge.power import expected_gain
 from pyrofit.diagnose.settings import SETTINGS
@@ -192,7 +192,7 @@ def trust(
         before = without.scores[name]
         # With a noise whose variance is larger by a factor, the gain of a log score is smaller by
         # it. The settings ask for the same gain of all: odds of 7 to 1 after this division.
-        both = [max(map(factor_of, of.residuals[name])) for of in (own, without)]
+        both = [max(map(long_run_factor, of.residuals[name])) for of in (own, without)]
         factor = min(both) if inflation.inflates else 1.0
         gains[name] = (own.scores[name] - before) / factor
         powers[name] = expected_gain(own, without, name) / factor

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 
-from pyrofit.diagnose.base.descent import Fit, descend, refreshed
+from pyrofit.diagnose.base.descent import Fit, descend_chi_square, refreshed
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import Model, fraction, model_of, name_of
 from pyrofit.diagnose.judge.ridges import Ridge, ridge_of
@@ -24,7 +24,7 @@ def values_of(trial: FittedModel) -> tuple[FloatArray, FloatArray]:
     return trial.model.likelihood.values(fit.x), sd
 
 
-def interval(
+def interval_over_models(
     trial: FittedModel, i: int, values: FloatArray, sd: FloatArray, factor: float = 1.0
 ) -> dict[str, float]:
     """Return value and 95 % interval of a parameter, within its limits, over ``factor``."""
@@ -48,7 +48,7 @@ def strengths(trial: FittedModel, wide: Mapping[str, Interval]) -> dict[str, OfS
     for effect, free in trial.model.effects.items():
         for parameter in free:
             name = name_of(effect, parameter)
-            own = interval(trial, trial.model.names.index(name), values, sd)
+            own = interval_over_models(trial, trial.model.names.index(name), values, sd)
             ends = own["low"], own["high"]
             wider = wide.get(name, ends)
             low, high = (None, None) if wider == ends else wider
@@ -68,7 +68,7 @@ def wide_intervals(models: Iterable[FittedModel]) -> dict[str, Interval]:
     for model in models:
         values, sd = values_of(model)
         for i in range(len(values) - model.numbers, len(values)):
-            own, name = interval(model, i, values, sd), model.model.names[i]
+            own, name = interval_over_models(model, i, values, sd), model.model.names[i]
             low, high = found.get(name, (np.inf, -np.inf))
             found[name] = (min(low, own["low"]), max(high, own["high"]))
     return found
@@ -107,7 +107,7 @@ def with_all_forms(
 
     def fitted(i: int) -> Fit:
         _, _, model, x = begins[i]
-        return refreshed(model, descend(model, x))
+        return refreshed(model, descend_chi_square(model, x))
 
     found: list[dict[str, FittedModel]] = [{} for _ in trials]
     fits = parallel_map(fitted, len(begins), processes)

@@ -7,7 +7,7 @@ may give way at the kinetics where something is missing from the model of the sl
 
 import numpy as np
 
-from pyrofit.diagnose.base.descent import descend
+from pyrofit.diagnose.base.descent import descend_chi_square
 from pyrofit.diagnose.base.fitted import FittedModel, up_to_date
 from pyrofit.diagnose.base.model import model_of
 from pyrofit.diagnose.judge.intervals import values_of
@@ -25,7 +25,7 @@ def kinetics_alone(trial: FittedModel) -> list[OfKinetics]:
     if not small or len(small) == len(trial.model.channels):
         return []
     model = model_of(base, trial.model.effects, small)
-    alone = up_to_date(FittedModel(model, descend(model, trial.fit.x)))
+    alone = up_to_date(FittedModel(model, descend_chi_square(model, trial.fit.x)))
     values, sd = values_of(alone)
     joint, _ = values_of(trial)
     shown = np.any(alone.fit.jacobian[: model.points] != 0.0, axis=0)

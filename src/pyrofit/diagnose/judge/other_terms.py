@@ -20,7 +20,7 @@ from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.inflation import Inflation
 from pyrofit.diagnose.corrections.correction import Correction
 from pyrofit.diagnose.corrections.fit import corrected, with_coefficients
-from pyrofit.diagnose.corrections.forms import SAME_TERM, corrections
+from pyrofit.diagnose.corrections.forms import SAME_TERM, fitted_corrections
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects import known_effects
 from pyrofit.estimate.posterior import UNIFORM, curvature
@@ -86,7 +86,7 @@ def _rivals(reduced: FittedModel, effect: str) -> list[Correction]:
     """Return the corrections of other terms than the one that an effect changes."""
     group = known_effects()[effect].group
     likelihood = reduced.model.likelihood
-    found = corrections(likelihood.problem, likelihood.values(reduced.fit.x))
+    found = fitted_corrections(likelihood.problem, likelihood.values(reduced.fit.x))
     return [correction for correction in found if group not in SAME_TERM[correction.probe]]
 
 

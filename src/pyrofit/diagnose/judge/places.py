@@ -8,11 +8,11 @@ import numpy as np
 from pyrofit.diagnose.base.adequacy import lack_of_fit
 from pyrofit.diagnose.base.fitted import FittedModel, finishes, strengths_at_limit, up_to_date
 from pyrofit.diagnose.base.inflation import by_significant_misfit
-from pyrofit.diagnose.base.prediction import predictions
+from pyrofit.diagnose.base.prediction import model_predictions
 from pyrofit.diagnose.judge.accord import conflicts, known_beside, wrong_instead
 from pyrofit.diagnose.judge.claim_tests import Trust, explains, trust
 from pyrofit.diagnose.judge.findings import Exchange, Finding, Judged
-from pyrofit.diagnose.judge.inflation import inflation_of
+from pyrofit.diagnose.judge.inflation import inflation_by_misfit
 from pyrofit.diagnose.judge.weights import group_weights
 from pyrofit.diagnose.search.restart import refitted_without
 from pyrofit.diagnose.search.step import SearchContext, SearchStep
@@ -22,18 +22,20 @@ from pyrofit.effects import known_effects
 from pyrofit.parallel import parallel_map
 
 
-def needed(found: Search, context: SearchContext) -> tuple[Search, list[FittedModel]]:
+def end_without_superfluous(
+    found: Search, context: SearchContext
+) -> tuple[Search, list[FittedModel]]:
     """End a search without the effects that others make superfluous, the least one first.
 
     Returns the search, and the best model without each of the effects that are left.
     """
     without = without_each(found, context.processes)
     while len(without) > 1:
-        penalised = inflation_of(found).penalised
+        penalised = inflation_by_misfit(found).penalised
         least = min(without, key=penalised)
         if penalised(least) - penalised(found.end) >= found.spare:
             break
-        found = ended(found, least, context.rng)
+        found = with_end(found, least, context.rng)
         without = without_each(found, context.processes)
     if not any(trial.key == found.end.key for trial in found.trials):
         lack = found.end_lack
@@ -55,7 +57,7 @@ def without_each(found: Search, processes: int) -> list[FittedModel]:
     ]
 
 
-def ended(found: Search, end: FittedModel, rng: np.random.Generator) -> Search:
+def with_end(found: Search, end: FittedModel, rng: np.random.Generator) -> Search:
     """Return a search with another end."""
     return replace(found, end=end, end_lack=lack_of_fit(end.model, end.fit, [], rng))
 
@@ -81,10 +83,10 @@ def findings_of(
     clean = [not by_significant_misfit(trial).inflates for trial in rivals.values()]
     may_explain = found.end_lack.adequate or (len(effects) == 1 and any(clean))
     models = [*(without[k] for k in which), *rivals.values()]
-    predicted = predictions(models, processes, whole=may_explain, made=context.made)
+    predicted = model_predictions(models, processes, whole=may_explain, made=context.made)
     before = dict(zip(which, predicted[: len(which)], strict=True))
     own = predicted[len(which) :]
-    inflation = inflation_of(found)
+    inflation = inflation_by_misfit(found)
     explained: list[bool | None] = [None] * len(own)
     if may_explain:
         rngs = context.rng.spawn(len(own))
@@ -145,7 +147,7 @@ def alternatives(found: Search, effect: str) -> list[tuple[str, FittedModel]]:
     Of each effect the best form; the end of the search itself first.
     """
     best = {effect: found.end}
-    penalised = inflation_of(found).penalised
+    penalised = inflation_by_misfit(found).penalised
     for name, trial in sorted(replacing(found, effect), key=lambda one: penalised(one[1])):
         if penalised(trial) <= penalised(found.end) + SETTINGS.ambiguous_chi2:
             best.setdefault(name, trial)
@@ -158,7 +160,7 @@ def exchanges(found: Search, effect: str) -> list[Exchange]:
     Only those to models that cannot be told from the best, the best one of each. Of two others both
     must be needed.
     """
-    end, penalised = found.end, inflation_of(found).penalised
+    end, penalised = found.end, inflation_by_misfit(found).penalised
     near = penalised(end) + SETTINGS.ambiguous_chi2
     best: dict[tuple[str, ...], Exchange] = {}
     for trial in sorted(found.trials, key=penalised):
@@ -173,7 +175,7 @@ def exchanges(found: Search, effect: str) -> list[Exchange]:
 
 def _all_needed(found: Search, trial: FittedModel, by: Sequence[str]) -> bool:
     """Tell whether no fit without one of several effects is nearly as good."""
-    penalised = inflation_of(found).penalised
+    penalised = inflation_by_misfit(found).penalised
     smaller = [set(trial.effects) - {name} for name in by if len(by) > 1]
     enough = penalised(trial) + found.spare
     return not any(set(t.effects) in smaller and penalised(t) < enough for t in found.trials)

@@ -5,7 +5,7 @@ from functools import partial
 import numpy as np
 
 from pyrofit.constants import QUANTILE
-from pyrofit.diagnose.base.descent import descend
+from pyrofit.diagnose.base.descent import descend_chi_square
 from pyrofit.diagnose.base.fitted import FittedModel, up_to_date
 from pyrofit.diagnose.base.model import strength_of
 from pyrofit.estimate.profile import profile_of
@@ -31,7 +31,12 @@ def _profile(trial: FittedModel, effect: str) -> OfProfile:
     posterior = trial.posterior
     C, dispersion = posterior.covariance(), posterior.dispersion
     found, _ = profile_of(
-        partial(descend, model), fit, i, C[:, i] / C[i, i], float(np.sqrt(C[i, i])), dispersion
+        partial(descend_chi_square, model),
+        fit,
+        i,
+        C[:, i] / C[i, i],
+        float(np.sqrt(C[i, i])),
+        dispersion,
     )
     within = found.interval(dispersion)
 

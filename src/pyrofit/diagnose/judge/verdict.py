@@ -8,9 +8,9 @@ import numpy as np
 from pyrofit.diagnose.base.fitted import FittedModel, up_to_date
 from pyrofit.diagnose.base.prediction import HELD_OUT
 from pyrofit.diagnose.judge.findings import Finding, Judged, Kind, Suspect, Verdict
-from pyrofit.diagnose.judge.inflation import inflation_of
+from pyrofit.diagnose.judge.inflation import inflation_by_misfit
 from pyrofit.diagnose.judge.other_terms import other_terms
-from pyrofit.diagnose.judge.places import ended, findings_of, needed
+from pyrofit.diagnose.judge.places import end_without_superfluous, findings_of, with_end
 from pyrofit.diagnose.search.refit import look_at
 from pyrofit.diagnose.search.step import SearchContext
 from pyrofit.diagnose.search.stepwise import Search
@@ -38,14 +38,14 @@ def judge(found: Search, rng: np.random.Generator, processes: int = 1) -> Verdic
     if not found.end.effects:
         return _without_effects(found)
     context = SearchContext(rng, processes=processes)
-    found, without = needed(found, context)
+    found, without = end_without_superfluous(found, context)
     if not found.end_lack.adequate and (part := _partly(found, without, context)):
         return part
     findings = findings_of(found, without, context)
     reasons = _reasons(findings)
     if len(findings) == 1 and reasons and findings[0].kept:
         # The best one fails, another does not: the verdict is about that one.
-        found, reasons = ended(found, findings[0].kept[0].trial, rng), []
+        found, reasons = with_end(found, findings[0].kept[0].trial, rng), []
         (of_end,) = findings_of(found, without, context)
         findings = (replace(findings[0], instead=of_end.instead),)
     elif reasons and found.end_lack.adequate and (part := _partly(found, without, context)):
@@ -92,7 +92,7 @@ def _with_other_terms(
     processes: int,
 ) -> list[Finding]:
     """Return findings with the free corrections that were fitted in their places."""
-    others = other_terms(up_to_date(found.end), without, inflation_of(found), processes)
+    others = other_terms(up_to_date(found.end), without, inflation_by_misfit(found), processes)
     return [
         replace(finding, others=tuple(terms))
         for finding, terms in zip(findings, others, strict=True)
@@ -119,7 +119,9 @@ def _partly(
             return None
         position, reason = failed
         taken_away.append((found.end.effects[position], reason))
-        found, without = needed(ended(found, without[position], context.rng), context)
+        found, without = end_without_superfluous(
+            with_end(found, without[position], context.rng), context
+        )
     findings = findings_of(found, without, context)
     if found.end_lack.adequate:
         return _explained(found, findings, without, processes)
@@ -140,7 +142,7 @@ def _first_failed(
 
     The effects are judged in this order, as predictions of the others may not be needed.
     """
-    penalised = inflation_of(found).penalised
+    penalised = inflation_by_misfit(found).penalised
     for k in sorted(range(len(without)), key=lambda k: penalised(without[k])):
         (finding,) = findings_of(found, without, context, [k])
         if reason := _against(finding):

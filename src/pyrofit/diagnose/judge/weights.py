@@ -12,7 +12,7 @@ it (model averaging: Hoeting et al. 1999, doi 10.1214/ss/1009212519).
 
 import numpy as np
 
-from pyrofit.diagnose.judge.inflation import inflation_of
+from pyrofit.diagnose.judge.inflation import inflation_by_misfit
 from pyrofit.diagnose.search.restart import best_of_each
 from pyrofit.diagnose.search.stepwise import Search
 from pyrofit.effects import known_effects
@@ -21,7 +21,7 @@ from pyrofit.numerics import functions
 
 def group_weights(found: Search) -> dict[str, float]:
     """Return the weight of each group of effects of the fitted models, the largest first."""
-    penalised, catalogue = inflation_of(found).penalised, known_effects()
+    penalised, catalogue = inflation_by_misfit(found).penalised, known_effects()
     models = best_of_each([found.end, found.base, *found.trials])
     costs = np.array([penalised(m) + found.spare * len(m.effects) for m in models])
     weights = functions.exp(-0.5 * (costs - costs.min()))

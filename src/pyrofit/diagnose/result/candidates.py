@@ -54,7 +54,7 @@ def confusability_of(found: Search) -> OfConfusability:
     return OfConfusability(effects=[look.effect for look in looks], cosine=cosine.tolist())
 
 
-def candidates(
+def candidate_records(
     found: Search, verdict: Verdict, final: FinalFits, processes: int = 1
 ) -> list[OfCandidate]:
     """Return every fitted model with its effects, and why it is not the verdict's."""

@@ -13,12 +13,12 @@ from pyrofit.results.diagnosis_schema import OfWindow
 from pyrofit.solver.arrays import FloatArray
 
 
-def describe(
+def describe_windows(
     name: str, trial: FittedModel, windows: tuple[Stretch, ...], critical: float
 ) -> list[OfWindow]:
     """Return the windows of a model in physical terms, differences simulated less measured."""
     model = trial.model
-    courses = {w.channel: course(model, trial.fit.x, w.channel) for w in windows}
+    courses = {w.channel: course_of_channel(model, trial.fit.x, w.channel) for w in windows}
     return [_window(name, trial, w, courses[w.channel], critical) for w in windows]
 
 
@@ -61,7 +61,7 @@ def _ends(values: FloatArray) -> list[float]:
     return [float(values[0]), float(values[-1])]
 
 
-def course(model: Model, x: FloatArray, channel: int) -> Course:
+def course_of_channel(model: Model, x: FloatArray, channel: int) -> Course:
     """Return the simulated course of a channel's experiment at the channel's times."""
     problem = model.likelihood.problem
     name, signal, index = problem.picks[channel]

@@ -17,12 +17,12 @@ from pyrofit.diagnose.base.prediction import HELD_OUT, prediction_of
 from pyrofit.diagnose.judge.claim_tests import Trust
 from pyrofit.diagnose.judge.final_fits import FinalFits
 from pyrofit.diagnose.judge.findings import Finding, Verdict
-from pyrofit.diagnose.judge.intervals import interval, values_of
+from pyrofit.diagnose.judge.intervals import interval_over_models, values_of
 from pyrofit.diagnose.judge.kinetics_alone import kinetics_alone
 from pyrofit.diagnose.judge.weights import group_weights
-from pyrofit.diagnose.result.candidates import candidates, confusability_of, screened
-from pyrofit.diagnose.result.phases import describe
-from pyrofit.diagnose.result.verdict_text import form_of, sentences
+from pyrofit.diagnose.result.candidates import candidate_records, confusability_of, screened
+from pyrofit.diagnose.result.phases import describe_windows
+from pyrofit.diagnose.result.verdict_text import form_words, sentences
 from pyrofit.diagnose.search.stepwise import Search
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects import known_effects
@@ -90,7 +90,7 @@ def content(
         needed=found.spare + float(functions.log(found.base.model.points)),
         ambiguity=SETTINGS.ambiguous_chi2,
         not_tried=_not_tried(study),
-        candidates=candidates(found, verdict, final, processes),
+        candidates=candidate_records(found, verdict, final, processes),
         extended=OfExtended(parameters=_extended(study, found, final)),
         gap=_gap(found, verdict, misfits),
         solver=solver,
@@ -140,7 +140,7 @@ def _verdict(verdict: Verdict) -> OfVerdict:
         kind=verdict.kind,
         effects=leading,
         groups=[catalogue[name].group for name in leading],
-        forms=[form_of(finding) for finding in verdict.findings],
+        forms=[form_words(finding) for finding in verdict.findings],
         sets=[finding.effects for finding in verdict.findings],
         evidence=[_evidence(finding) for finding in verdict.findings],
         other_terms=[
@@ -231,7 +231,7 @@ def _parameters(study: Study, trial: FittedModel) -> dict[str, OfParameter]:
     for i, name in enumerate(trial.model.names[:size]):
         given = study.parameters[name]
         x = trial.fit.x[i]
-        within = interval(trial, i, values, sd, given.factor)
+        within = interval_over_models(trial, i, values, sd, given.factor)
         found[name] = OfParameter(**within, unit=given.unit, at_limit=bool(limit_of(x)))
     return found
 
@@ -248,7 +248,7 @@ def _windows(found: Search) -> list[OfWindow]:
     return [
         window
         for name, (trial, lack) in models.items()
-        for window in describe(name, trial, lack.windows, lack.scan_critical)
+        for window in describe_windows(name, trial, lack.windows, lack.scan_critical)
     ]
 
 
@@ -313,7 +313,7 @@ def _gap(found: Search, verdict: Verdict, misfits: Misfits) -> list[OfGap]:
     return rows
 
 
-def curves(found: Search, final: FinalFits) -> pd.DataFrame:
+def curve_records(found: Search, final: FinalFits) -> pd.DataFrame:
     """Return measured and simulated curves of all channels before and after, SI units."""
     base = found.base.model.base
     problem = base.likelihood.problem

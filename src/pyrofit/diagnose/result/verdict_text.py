@@ -6,7 +6,7 @@ from pyrofit.diagnose.judge.findings import Finding, Verdict
 from pyrofit.effects import known_effects
 
 
-def form_of(finding: Finding) -> str:
+def form_words(finding: Finding) -> str:
     """Say in which form an effect is found.
 
     The forms of one group that cannot be told apart are all named; a fitted form parameter is said.
@@ -42,7 +42,7 @@ def _none(verdict: Verdict) -> list[str]:
 def _named(verdict: Verdict) -> list[str]:
     (finding,) = verdict.findings
     return [
-        f"The model lacks: {finding.group} ({form_of(finding)}).",
+        f"The model lacks: {finding.group} ({form_words(finding)}).",
         "With it, no test shows a lack of fit, and predictions improve.",
         _because(verdict.reasons),
     ]
@@ -93,7 +93,7 @@ def _partly(verdict: Verdict) -> list[str]:
 def _unknown(verdict: Verdict) -> list[str]:
     said = ["Model and measurements disagree, and no effect of the catalogue explains it."]
     if verdict.findings:
-        names = " with ".join(form_of(finding) for finding in verdict.findings)
+        names = " with ".join(form_words(finding) for finding in verdict.findings)
         said = [
             "Model and measurements disagree; the missing effect is not known.",
             f"The model with {names} fits best, but does not pass the tests of a claim.",

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from pyrofit.diagnose.base.fitted import FittedModel, strengths_at_limit
 from pyrofit.diagnose.base.inflation import by_significant_misfit
-from pyrofit.diagnose.base.prediction import predictions, slabs
+from pyrofit.diagnose.base.prediction import model_predictions, slab_experiments
 from pyrofit.diagnose.search.step import SearchContext, SearchStep, in_order
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects import known_effects
@@ -23,7 +23,7 @@ def branches(
     as much as chi-square does. A model whose predictions get worse comes behind all others.
     """
     claims = _claims(steps, spare)
-    if len(claims) > 1 and slabs(claims[0][0]):
+    if len(claims) > 1 and slab_experiments(claims[0][0]):
         claims = _by_prediction(claims, context)
     found = [trial for trial, _ in claims][: SETTINGS.branches]
     if not found:
@@ -73,7 +73,7 @@ def _by_prediction(claims: Sequence[Claim], context: SearchContext) -> list[Clai
     """Return claims in the order of penalised chi-square less twice the log scores."""
     starts = {id(start): start for _, start in claims}
     models = [*(trial for trial, _ in claims), *starts.values()]
-    found = predictions(models, context.processes, held_out=False, made=context.made)
+    found = model_predictions(models, context.processes, held_out=False, made=context.made)
     own = found[: len(claims)]
     before = dict(zip(starts, found[len(claims) :], strict=True))
 

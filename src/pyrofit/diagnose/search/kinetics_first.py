@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from pyrofit.diagnose.base.descent import Fit, descend
+from pyrofit.diagnose.base.descent import Fit, descend_chi_square
 from pyrofit.diagnose.base.fit import fitted_from_starts
 from pyrofit.diagnose.base.fitted import FittedModel, polished, up_to_date
 from pyrofit.diagnose.base.inflation import by_significant_misfit
@@ -71,7 +71,7 @@ def _with(trial: FittedModel, effects: Sequence[str]) -> FittedModel:
         free: Free = {**trial.model.effects, effect: (name,)}
         model = model_of(trial.model.base, free, trial.model.channels)
         x = np.append(trial.fit.x, fraction(quantity, quantity.value))
-        trial = FittedModel(model, descend(model, x))
+        trial = FittedModel(model, descend_chi_square(model, x))
     return up_to_date(trial)
 
 
@@ -117,7 +117,7 @@ def _best_with(
         whole = np.concatenate([x, trial.fit.x[x.size : base], np.zeros(len(model.names) - base)])
         _, quantity = strength_of(looks[k].effect)
         whole[base] = fraction(quantity, quantity.typical)
-        return descend(model, whole, enough=SETTINGS.rough_gain)
+        return descend_chi_square(model, whole, enough=SETTINGS.rough_gain)
 
     fits = parallel_map(fit, len(begins), processes)
     found = [FittedModel(models[k], end) for (k, _), end in zip(begins, fits, strict=True)]

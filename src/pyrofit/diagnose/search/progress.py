@@ -42,7 +42,7 @@ class Whole:
         return (self._clock() - self._began) * (1.0 - done) / done
 
 
-class Progress:
+class SearchProgress:
     """Tells how many of some fits are done.
 
     Parameters

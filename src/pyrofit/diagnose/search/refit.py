@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from pyrofit.diagnose.base.descent import descend
+from pyrofit.diagnose.base.descent import descend_chi_square
 from pyrofit.diagnose.base.fitted import FittedModel, lower_of
 from pyrofit.diagnose.base.model import (
     Model,
@@ -14,7 +14,7 @@ from pyrofit.diagnose.base.model import (
     name_of,
     strength_of,
 )
-from pyrofit.diagnose.search.score_test import Screening, look
+from pyrofit.diagnose.search.score_test import Screening, change_by_effect
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects import known_effects
 from pyrofit.effects.base import Quantity
@@ -47,11 +47,11 @@ def from_best_start(
     """
     model, at = model_with(trial, seen.effect), starts(seen)[0]
     begin = _derivatives(trial, seen, at)
-    end = descend(model, _start(trial, seen, at), begin, enough=enough)
+    end = descend_chi_square(model, _start(trial, seen, at), begin, enough=enough)
     if end.chi2 >= trial.fit.chi2:
         _, quantity = strength_of(seen.effect)
         null = extended(trial.fit.x, seen.effect, quantity.value)
-        end = descend(model, null, begin, enough=enough)
+        end = descend_chi_square(model, null, begin, enough=enough)
     return FittedModel(model, end)
 
 
@@ -66,7 +66,9 @@ def from_elsewhere(
     ends = [best.fit.chi2]
     for at in others:
         begin = _derivatives(trial, seen, at)
-        end = descend(best.model, _start(trial, seen, at), begin, enough=enough, known=best.fit)
+        end = descend_chi_square(
+            best.model, _start(trial, seen, at), begin, enough=enough, known=best.fit
+        )
         best = lower_of(best, end)
         if end.returned or any(abs(end.chi2 - other) < SETTINGS.same_valley for other in ends):
             break
@@ -127,8 +129,8 @@ def with_form(trial: FittedModel, effect: str, parameter: str) -> FittedModel:
     best = int(np.argmin(ahead))
     secant = (there[best] - trial.fit.residuals) / (others[best][at] - usual[at])
     begin = np.insert(trial.fit.jacobian, at, secant, axis=1)
-    first = FittedModel(model, descend(model, usual, begin))
-    other = descend(model, others[best], begin, known=first.fit)
+    first = FittedModel(model, descend_chi_square(model, usual, begin))
+    other = descend_chi_square(model, others[best], begin, known=first.fit)
     return lower_of(first, other)
 
 
@@ -153,6 +155,8 @@ def look_at(trial: FittedModel, effects: Sequence[str], processes: int = 1) -> l
     """Return the change of a fitted model by each effect that it can have."""
     spanned = projector(trial.fit)
     found = parallel_map(
-        lambda i: look(trial.model, trial.fit, effects[i], spanned), len(effects), processes
+        lambda i: change_by_effect(trial.model, trial.fit, effects[i], spanned),
+        len(effects),
+        processes,
     )
     return [seen for seen in found if seen is not None]

@@ -6,8 +6,8 @@ from itertools import islice
 
 import numpy as np
 
-from pyrofit.diagnose.base.descent import Fit, descend, refreshed
-from pyrofit.diagnose.base.fitted import FittedModel, Key, followed, lower_of, misfits
+from pyrofit.diagnose.base.descent import Fit, descend_chi_square, refreshed
+from pyrofit.diagnose.base.fitted import FittedModel, Key, followed, lower_of, misfits_badly
 from pyrofit.diagnose.base.model import extended, model_of, strength_of
 from pyrofit.diagnose.search.step import SearchContext, in_order
 from pyrofit.diagnose.settings import SETTINGS
@@ -52,14 +52,16 @@ def from_other_starts(trials: Sequence[FittedModel], context: SearchContext) -> 
 
     The base fit may lie far from the valley in which an effect explains the data.
     """
-    if not trials or not context.other_starts or not misfits(trials[0]):
+    if not trials or not context.other_starts or not misfits_badly(trials[0]):
         return []
     leading = trials[: SETTINGS.most_refitted]
     begins = [(t, x) for t in leading for x in context.other_starts]
 
     def end(i: int) -> Fit:
         trial, x = begins[i]
-        rough = descend(trial.model, _start(trial, x), enough=SETTINGS.rough_gain, known=trial.fit)
+        rough = descend_chi_square(
+            trial.model, _start(trial, x), enough=SETTINGS.rough_gain, known=trial.fit
+        )
         return followed(replace(trial, fit=rough)).fit if rough.chi2 < trial.fit.chi2 else rough
 
     found = list(leading)
@@ -109,7 +111,7 @@ def _reduced(
         whole = tasks[k][0]
         keep = [name in models[k].names for name in whole.model.names]
         return refreshed(
-            models[k], descend(models[k], whole.fit.x[keep], whole.fit.jacobian[:, keep])
+            models[k], descend_chi_square(models[k], whole.fit.x[keep], whole.fit.jacobian[:, keep])
         )
 
     return list(map(FittedModel, models, parallel_map(fit, len(models), processes)))

@@ -61,7 +61,7 @@ class Screening:
         return score(residuals, self.directions)
 
 
-def look(model: Model, fit: Fit, effect: str, spanned: FloatArray) -> Screening | None:
+def change_by_effect(model: Model, fit: Fit, effect: str, spanned: FloatArray) -> Screening | None:
     """Return the change of a fitted model by an effect; None if it cannot have the effect.
 
     ``spanned`` is what the fitted parameters span, of `projector`.
@@ -71,8 +71,8 @@ def look(model: Model, fit: Fit, effect: str, spanned: FloatArray) -> Screening 
         more = model_of(model.base, {**model.effects, effect: (name,)}, model.channels)
     except ValueError:  # another effect sets the same number of the description
         return None
-    sets = np.array([extended(fit.x, effect, s) for s in tried(effect)])
-    runs = list(zip(tried(effect), more.residuals_all(sets), strict=True))
+    sets = np.array([extended(fit.x, effect, s) for s in strengths_tried(effect)])
+    runs = list(zip(strengths_tried(effect), more.residuals_all(sets), strict=True))
     runs = [(s, residuals) for s, residuals in runs if more.finished(residuals)]
     if not runs:
         return None
@@ -82,7 +82,7 @@ def look(model: Model, fit: Fit, effect: str, spanned: FloatArray) -> Screening 
     return Screening(effect, strengths, d, project(spanned, d), ahead, _typical(effect, strengths))
 
 
-def tried(effect: str) -> FloatArray:
+def strengths_tried(effect: str) -> FloatArray:
     """Return the strengths that are tried, weak ones first, both sides where limits allow."""
     _, quantity = strength_of(effect)
     distance = abs(quantity.typical - quantity.value)

@@ -10,7 +10,7 @@ from pyrofit.diagnose.base.adequacy import LackOfFit
 from pyrofit.diagnose.base.fitted import FittedModel, followed, polished
 from pyrofit.diagnose.base.model import strength_of
 from pyrofit.diagnose.base.prediction import Made
-from pyrofit.diagnose.search.progress import ROUGHLY, SECOND, TO_THE_END, Progress, Whole
+from pyrofit.diagnose.search.progress import ROUGHLY, SECOND, TO_THE_END, SearchProgress, Whole
 from pyrofit.diagnose.search.refit import (
     fixed_forms,
     from_best_start,
@@ -140,7 +140,7 @@ def _fitted(tried: Tried, context: SearchContext, best: float = np.inf) -> list[
     found: dict[int, FittedModel] = {}
 
     def fit(which: Sequence[int], how: Callable[[int], FittedModel], part: str) -> None:
-        told = Progress(part, context.whole, len(which), context.tell)
+        told = SearchProgress(part, context.whole, len(which), context.tell)
         ends = parallel_map(lambda k: how(which[k]).fit, len(which), context.processes, told)
         found.update((i, FittedModel(models[i], end)) for i, end in zip(which, ends, strict=True))
 
@@ -222,7 +222,7 @@ def _forms(
             if trial.penalised < start.penalised:
                 paying[k].append(trial)
         chosen = [in_order(trials)[: SETTINGS.most_polished_forms] for trials in paying]
-        better = together(lambda trials: polished(trials, context.processes), chosen)
+        better = work_together(lambda trials: polished(trials, context.processes), chosen)
         for k, trials in enumerate(better):
             found[k] += trials
         leading = [in_order(trials)[:1] for trials in better]
@@ -247,14 +247,14 @@ def _polished(
         _promising(start, order[: SETTINGS.most_polished], best)
         for start, order in zip(begun, orders, strict=True)
     ]
-    better = together(lambda trials: polished(trials, context.processes), leading)
+    better = work_together(lambda trials: polished(trials, context.processes), leading)
     return [
         list(in_order([*of_step, *(t for t in order if t not in chosen)]))
         for of_step, chosen, order in zip(better, leading, orders, strict=True)
     ]
 
 
-def together(
+def work_together(
     work: Callable[[list[FittedModel]], list[FittedModel]],
     lists: Sequence[Sequence[FittedModel]],
 ) -> list[list[FittedModel]]:

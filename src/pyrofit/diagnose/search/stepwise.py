@@ -9,12 +9,12 @@ from pyrofit.diagnose.base.fit import blurred, has_better_noise, refitted_all, s
 from pyrofit.diagnose.base.fitted import (
     FittedModel,
     finishes,
-    misfits,
+    misfits_badly,
     polished,
     strengths_at_limit,
     up_to_date,
 )
-from pyrofit.diagnose.base.prediction import predictions, slabs
+from pyrofit.diagnose.base.prediction import model_predictions, slab_experiments
 from pyrofit.diagnose.search.branches import branches
 from pyrofit.diagnose.search.refit import fixed_forms
 from pyrofit.diagnose.search.restart import (
@@ -61,7 +61,9 @@ class Search:
         return [trial for step in self.rounds for trial in step.trials]
 
 
-def search(base: FittedModel, effects: Sequence[str], most: int, context: SearchContext) -> Search:
+def search_effects(
+    base: FittedModel, effects: Sequence[str], most: int, context: SearchContext
+) -> Search:
     """Add effects to the base until one leaves only noise, none gains enough, or there are most.
 
     The first is tried even where the base leaves only noise.
@@ -107,7 +109,7 @@ def settled(found: Search, most: int) -> bool:
         return True
     if blurred(end.model.base):
         return False
-    return found.end_lack.adequate or misfits(end)
+    return found.end_lack.adequate or misfits_badly(end)
 
 
 def _leading(found: Search) -> list[FittedModel]:
@@ -273,9 +275,11 @@ class Pass:
 
     def _predicts_better(self, trial: FittedModel, end: FittedModel) -> bool:
         """Tell whether a model is better with its predictions of experiments left out as well."""
-        if not slabs(end):
+        if not slab_experiments(end):
             return True
-        scores = predictions([trial, end], self.context.processes, False, made=self.context.made)
+        scores = model_predictions(
+            [trial, end], self.context.processes, False, made=self.context.made
+        )
         return self._rank(trial) - self._rank(end) < 2.0 * (scores[0].total - scores[1].total)
 
     def _others(self, *models: FittedModel) -> list[str]:

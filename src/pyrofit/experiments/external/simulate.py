@@ -7,7 +7,7 @@ import pandas as pd
 
 from pyrofit.errors import StudyError
 from pyrofit.experiments.base import Asked, Course, Idea
-from pyrofit.external.output import Record
+from pyrofit.external.output import WrittenCurve
 from pyrofit.external.runs import Outcome, outcomes
 from pyrofit.model.accuracy import Accuracy, Resolution
 from pyrofit.model.base import value_of
@@ -79,10 +79,10 @@ def _curves(
     return Curves(Status.OK, signals)
 
 
-def mean(record: Record, at: FloatArray, width: float) -> FloatArray:
+def mean(record: WrittenCurve, at: FloatArray, width: float) -> FloatArray:
     """Return means over bins of a curve, linear between its points and constant beyond its ends.
 
-    >>> mean(Record(np.array([0.0, 2.0]), np.array([0.0, 2.0])), np.array([0.5, 1.0]), 1.0)
+    >>> mean(WrittenCurve(np.array([0.0, 2.0]), np.array([0.0, 2.0])), np.array([0.5, 1.0]), 1.0)
     array([0.5, 1. ])
     """
     if width <= 0.0:

@@ -29,7 +29,7 @@ PLACES = {
 """Default uncertainties of the apparatus, by the end of the input's name."""
 
 
-def described(experiment: Experiment, place: Place) -> float | None:
+def described_number(experiment: Experiment, place: Place) -> float | None:
     """Return the number that is described, if it is one and matters."""
     value = stated(experiment, place)
     return value if isinstance(value, float) else None

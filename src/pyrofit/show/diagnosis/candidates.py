@@ -14,12 +14,12 @@ from pyrofit.show.diagnosis.words import (
     model_name,
     prediction_name,
     ranked,
-    remark,
+    remark_on_candidate,
 )
 from pyrofit.show.table import Table
 
 
-def candidates(study: Study, results: Results) -> pd.DataFrame:
+def candidates_table(study: Study, results: Results) -> pd.DataFrame:
     """List the models with effects that were fitted, the best ones, and why each was rejected."""
     found = diagnosis.read(study, results)
     order = ranked(found, MOST)
@@ -32,7 +32,7 @@ def candidates(study: Study, results: Results) -> pd.DataFrame:
             "above_best": c.penalised - lowest,
             "fitted": "; ".join(_fitted(c)),
             "predictions": _predictions(study, c.predictions),
-            "remark": remark(found, c),
+            "remark": remark_on_candidate(found, c),
         }
         for c in order
     ]
@@ -68,7 +68,7 @@ def _predictions(study: Study, gains: Mapping[str, float]) -> str:
 
 TABLE = Table(
     place=210,
-    make=candidates,
+    make=candidates_table,
     title="Candidates, the best first",
     note="Each is the base model with one effect more, or several, all parameters refitted. Of "
     "fits with the same effects, the best is listed. Fitted: parameters by the symbols of the "

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from pyrofit.analysis.running import running_mean
+from pyrofit.analysis.running import smoothed
 from pyrofit.analysis.uses import title_of
 from pyrofit.config import Study
 from pyrofit.quantities.base import FloatArray, Quantity
@@ -16,25 +16,25 @@ from pyrofit.results import diagnosis
 from pyrofit.results.diagnosis_schema import Diagnosis, OfNoise, OfWindow
 from pyrofit.results.files import Results
 from pyrofit.show import style
-from pyrofit.show.diagnosis.words import BASE, HELD_OUT, quantity_of, words_of
-from pyrofit.show.drawn import Axes, Canvas, Look
+from pyrofit.show.diagnosis.words import BASE, HELD_OUT, quantity_of_row, words_of
+from pyrofit.show.drawn import Axes, Canvas, DrawStyle
 from pyrofit.show.figure import Figure
 from pyrofit.show.names import data_name
 from pyrofit.show.units import celsius, shown
 
-BEFORE: Look = {"color": style.COLOURS[1], "linestyle": style.DASHES[1], "linewidth": 1.1}
+BEFORE: DrawStyle = {"color": style.COLOURS[1], "linestyle": style.DASHES[1], "linewidth": 1.1}
 
 
-AFTER: Look = {"color": style.COLOURS[0], "linestyle": "-", "linewidth": 1.1}
+AFTER: DrawStyle = {"color": style.COLOURS[0], "linestyle": "-", "linewidth": 1.1}
 
 
-_MEASURED: Look = {"color": style.MEASURED, "linewidth": 0.7}
+_MEASURED: DrawStyle = {"color": style.MEASURED, "linewidth": 0.7}
 
 
-_WINDOW: Look = {"facecolor": style.COLOURS[5], "alpha": 0.3, "linewidth": 0.0}
+_WINDOW: DrawStyle = {"facecolor": style.COLOURS[5], "alpha": 0.3, "linewidth": 0.0}
 
 
-_EDGE: Look = {"color": "0.5", "linewidth": 0.4}
+_EDGE: DrawStyle = {"color": "0.5", "linewidth": 0.4}
 
 
 _LETTER = 0.019
@@ -56,7 +56,7 @@ CAPTION = (
 
 def curve_figures(study: Study, found: Diagnosis) -> dict[str, Figure]:
     """Return a figure for each quantity that the diagnosis looked at, rates first, TGA last."""
-    measured = {(q := quantity_of(study, n)).name: q for n in found.noise}
+    measured = {(q := quantity_of_row(study, n)).name: q for n in found.noise}
     order = sorted(measured.values(), key=lambda q: (q.against_temperature, not q.relative))
     return {
         quantity.title.replace(" ", "_"): Figure(
@@ -72,8 +72,8 @@ def curve_figures(study: Study, found: Diagnosis) -> dict[str, Figure]:
 def _draw(study: Study, results: Results, quantity: Quantity) -> Canvas:
     """Draw curves above, residuals below, one pair of panels for each signal of a quantity."""
     found = diagnosis.read(study, results)
-    curves = diagnosis.curves(study, results)
-    signals = [n for n in found.noise if quantity_of(study, n).name == quantity.name]
+    curves = diagnosis.read_curves(study, results)
+    signals = [n for n in found.noise if quantity_of_row(study, n).name == quantity.name]
     canvas, pairs = pairs_of_axes(len(signals))
     style.letter([above for above, _ in pairs], [_title(study, n) for n in signals])
     x = "temperature_K" if quantity.against_temperature else "time_s"
@@ -139,7 +139,7 @@ def pairs_of_axes(count: int) -> tuple[Canvas, list[tuple[Axes, Axes]]]:
 def _title(study: Study, row: OfNoise) -> str:
     held = ", held out" if row.role == HELD_OUT else ""
     words = words_of(study, row)
-    named = "" if words == quantity_of(study, row).title else f", {words}"
+    named = "" if words == quantity_of_row(study, row).title else f", {words}"
     return f"{title_of(study, row.experiment)}{named}{held}"
 
 
@@ -167,7 +167,7 @@ def _draw_residuals(ax: Axes, at: FloatArray, curve: pd.DataFrame) -> None:
     for name, look in looks:
         r = (curve[name].astype(float) - curve["measured"]) / curve["sd"]
         ax.plot(at, r, color=look["color"], linewidth=0.4, alpha=0.4)
-        ax.plot(at, running_mean(r), **look)
+        ax.plot(at, smoothed(r), **look)
 
 
 def _draw_windows(ax: Axes, windows: Sequence[OfWindow], x: str) -> None:
@@ -188,7 +188,7 @@ def _draw_windows(ax: Axes, windows: Sequence[OfWindow], x: str) -> None:
         middle = float(np.clip(middle, half, 1.0 - half))
         row = next((i for i in range(_ROWS) if taken[i] < middle - half), _ROWS - 1)
         taken[row] = middle + half
-        place: Look = {"transform": ax.transAxes, "ha": "center", "va": "top", "fontsize": 6}
+        place: DrawStyle = {"transform": ax.transAxes, "ha": "center", "va": "top", "fontsize": 6}
         ax.text(middle, 0.975 - 0.12 * row, last, **place)
     if windows:  # room for the labels
         bottom, top = ax.get_ylim()

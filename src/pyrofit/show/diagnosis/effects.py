@@ -9,17 +9,17 @@ from pyrofit.results import diagnosis
 from pyrofit.results.diagnosis_schema import OfScreen
 from pyrofit.results.files import Results
 from pyrofit.show import style
-from pyrofit.show.drawn import Axes, Canvas, Look
+from pyrofit.show.drawn import Axes, Canvas, DrawStyle
 from pyrofit.show.figure import Figure
 
 FAMILIES = {"apparatus": "xxxx", "environment": "////", "material": ""}
 """Hatching of each family, so that they stay apart in grey."""
 
 
-LIMIT: Look = {"color": "black", "linewidth": 0.8, "linestyle": (0, (4, 2))}
+LIMIT: DrawStyle = {"color": "black", "linewidth": 0.8, "linestyle": (0, (4, 2))}
 
 
-def effects(study: Study, results: Results) -> Canvas:
+def draw_effects(study: Study, results: Results) -> Canvas:
     """Draw how well each effect would show, and which look alike."""
     found = diagnosis.read(study, results)
     names = list(found.confusability.effects)
@@ -64,7 +64,7 @@ def _bars(ax: Axes, rows: Sequence[OfScreen], critical: float) -> None:
     for i, (row, size) in enumerate(zip(rows, sizes, strict=True)):
         family = _family(row)
         hatch = [*FAMILIES.values(), ""][family]
-        look: Look = {"color": style.colour(family), "hatch": hatch, "edgecolor": "white"}
+        look: DrawStyle = {"color": style.colour(family), "hatch": hatch, "edgecolor": "white"}
         ax.barh(i, size, height=0.75, **look, linewidth=0.0)
     ax.plot(scores, range(len(rows)), "D", color="white", markersize=4.6)
     ax.plot(scores, range(len(rows)), "D", color="black", markersize=3)
@@ -80,7 +80,7 @@ def _bars(ax: Axes, rows: Sequence[OfScreen], critical: float) -> None:
 FIGURE = Figure(
     place=750,
     applies=lambda found: bool(found.screen) and bool(found.confusability.effects),
-    make=effects,
+    make=draw_effects,
     title="Detectability and confusability of the effects",
     caption="a) Bars: standard deviations by which each effect of typical strength would "
     "change the measurements, after a refit of all parameters. These measurements "

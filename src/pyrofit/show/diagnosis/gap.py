@@ -7,12 +7,12 @@ from pyrofit.analysis.uses import title_of
 from pyrofit.config import Study
 from pyrofit.results import diagnosis
 from pyrofit.results.files import Results
-from pyrofit.show.diagnosis.words import ROLES, quantity_of, words_of
+from pyrofit.show.diagnosis.words import ROLES, quantity_of_row, words_of
 from pyrofit.show.table import Table
 from pyrofit.show.units import difference, difference_unit
 
 
-def gap(study: Study, results: Results) -> pd.DataFrame:
+def gap_table(study: Study, results: Results) -> pd.DataFrame:
     """List how far model and measurement are apart, before and after, fitted and held out.
 
     ``before_sd``, ``after_sd``: root of chi-square per point; 1 is noise alone. Without named
@@ -21,7 +21,7 @@ def gap(study: Study, results: Results) -> pd.DataFrame:
     found = diagnosis.read(study, results)
     rows = []
     for g in found.gap:
-        quantity = quantity_of(study, g)
+        quantity = quantity_of_row(study, g)
         before, after = (float(difference(quantity, v)) for v in (g.rms_before, g.rms_after))
         rows.append(
             {
@@ -48,7 +48,7 @@ def gap(study: Study, results: Results) -> pd.DataFrame:
 
 TABLE = Table(
     place=500,
-    make=gap,
+    make=gap_table,
     title="Errors before and after",
     note="Root mean square of simulated minus measured, before and after the effects of "
     "the verdict were added. Whitened: divided by the standard deviation of the noise, with its "

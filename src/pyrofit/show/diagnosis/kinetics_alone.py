@@ -11,7 +11,7 @@ FAR = 3.0
 """Difference in standard deviations that is told."""
 
 
-def kinetics_alone(study: Study, results: Results) -> pd.DataFrame:
+def kinetics_alone_table(study: Study, results: Results) -> pd.DataFrame:
     """List the parameters that small samples tell, in the units of the study."""
     rows = []
     for row in diagnosis.read(study, results).kinetics_alone:
@@ -35,7 +35,7 @@ def kinetics_alone(study: Study, results: Results) -> pd.DataFrame:
 
 TABLE = Table(
     place=630,
-    make=kinetics_alone,
+    make=kinetics_alone_table,
     title="Kinetics of the small samples",
     note="The final model fitted to TGA, DSC and MCC alone, and to all signals. The difference is "
     "in standard deviations of the first fit. A conflict means that the slab asks for other "

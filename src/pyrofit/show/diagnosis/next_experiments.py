@@ -16,7 +16,7 @@ from pyrofit.show.figure import Figure
 from pyrofit.show.table import Table
 
 
-def next_experiments(study: Study, results: Results) -> pd.DataFrame:
+def next_experiments_table(study: Study, results: Results) -> pd.DataFrame:
     """List the experiments that would separate competing models best."""
     found = diagnosis.read(study, results).next_experiment
     rows = [{"experiment": d.words, "separation_sd": d.separation_sd} for d in found]
@@ -64,7 +64,7 @@ def draw_next_experiments(study: Study, results: Results) -> Canvas:
 
 TABLE = Table(
     place=800,
-    make=next_experiments,
+    make=next_experiments_table,
     title="Next experiments",
     note="Separation of the two models that the experiment separates least, in standard "
     "deviations, with the uncertainty of their parameters. Above 3 it distinguishes "

@@ -6,16 +6,16 @@ from pyrofit.analysis.uses import title_of
 from pyrofit.config import Study
 from pyrofit.results import diagnosis
 from pyrofit.results.files import Results
-from pyrofit.show.diagnosis.words import ROLES, quantity_of, words_of
+from pyrofit.show.diagnosis.words import ROLES, quantity_of_row, words_of
 from pyrofit.show.table import Table
 from pyrofit.show.units import difference, difference_unit
 
 
-def noise(study: Study, results: Results) -> pd.DataFrame:
+def noise_table(study: Study, results: Results) -> pd.DataFrame:
     """List the noise of every channel, and how the base fits or predicts it."""
     rows = []
     for n in diagnosis.read(study, results).noise:
-        quantity = quantity_of(study, n)
+        quantity = quantity_of_row(study, n)
         rows.append(
             {
                 "role": ROLES.get(n.role, n.role),
@@ -33,7 +33,7 @@ def noise(study: Study, results: Results) -> pd.DataFrame:
 
 TABLE = Table(
     place=710,
-    make=noise,
+    make=noise_table,
     title="Noise of the signals, and how the base fits them",
     note="Stated with the data or estimated from their scatter, as the column noise says; sd is "
     "the median standard deviation. Chi-square per point is near 1 where the base model misses "

@@ -11,7 +11,7 @@ from pyrofit.show.diagnosis.words import leading
 from pyrofit.show.table import Table
 
 
-def parameters(study: Study, results: Results) -> pd.DataFrame:
+def parameters_table(study: Study, results: Results) -> pd.DataFrame:
     """List the parameters that fitted tests use, without and with the effects of the verdict."""
     found = diagnosis.read(study, results)
     after = found.extended.parameters if leading(found) else {}
@@ -42,7 +42,7 @@ _AFTER = {"extended": "value", "extended_low": "low", "extended_high": "high"}
 
 TABLE = Table(
     place=700,
-    make=parameters,
+    make=parameters_table,
     title="Parameters of the model",
     note="95 % intervals, each model taken as right. A parameter at a limit may compensate for a "
     "missing effect. Parameters of held-out tests alone are not listed.",

@@ -16,7 +16,7 @@ from pyrofit.show.table import Table
 from pyrofit.show.units import celsius
 
 
-def probes(study: Study, results: Results) -> pd.DataFrame:
+def probes_table(study: Study, results: Results) -> pd.DataFrame:
     """List which free correction inside the model would absorb the misfit, the best first."""
     found = diagnosis.read(study, results).probes
     rows = [{"probe": p.what, "absorbed_percent": 100.0 * p.absorbed} for p in found]
@@ -56,7 +56,7 @@ def draw_probes(study: Study, results: Results) -> Canvas:
 
 TABLE = Table(
     place=400,
-    make=probes,
+    make=probes_table,
     title="Free corrections that absorb the misfit",
     note="Each is a free curve in one place of the model, added to the model with the effects "
     "found. Absorbed: share of the excess chi-square that it removes. It tells where a missing "

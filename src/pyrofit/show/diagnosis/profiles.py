@@ -9,19 +9,19 @@ from pyrofit.effects import known_effects
 from pyrofit.results import diagnosis
 from pyrofit.results.files import Results
 from pyrofit.show import style
-from pyrofit.show.drawn import Canvas, Look
+from pyrofit.show.drawn import Canvas, DrawStyle
 from pyrofit.show.figure import Figure
 
-_LEVEL: Look = {"color": "black", "linewidth": 0.8, "linestyle": (0, (4, 2))}
+_LEVEL: DrawStyle = {"color": "black", "linewidth": 0.8, "linestyle": (0, (4, 2))}
 
 
-_ABSENT: Look = {"color": "0.3", "linewidth": 0.8, "linestyle": (0, (1, 1.5))}
+_ABSENT: DrawStyle = {"color": "0.3", "linewidth": 0.8, "linestyle": (0, (1, 1.5))}
 
 
-_PROFILE: Look = {"color": style.COLOURS[0], "marker": "o", "markersize": 3}
+_PROFILE: DrawStyle = {"color": style.COLOURS[0], "marker": "o", "markersize": 3}
 
 
-def profiles(study: Study, results: Results) -> Canvas:
+def draw_profiles(study: Study, results: Results) -> Canvas:
     """Draw the rise of chi-square with the strength of each effect of the verdict's model."""
     from matplotlib.ticker import MaxNLocator
 
@@ -56,7 +56,7 @@ def profiles(study: Study, results: Results) -> Canvas:
 FIGURE = Figure(
     place=250,
     applies=lambda found: bool(found.profiles),
-    make=profiles,
+    make=draw_profiles,
     title="Profile likelihood of the strengths",
     caption="Rise of chi-square with the strength of each effect found, all else refitted "
     "at every point. The 95 % interval lies below the dashed line, at 3.84 times chi-square "

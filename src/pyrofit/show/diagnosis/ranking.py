@@ -13,8 +13,8 @@ from pyrofit.results.diagnosis_schema import Diagnosis
 from pyrofit.results.files import Results
 from pyrofit.show import style
 from pyrofit.show.diagnosis.effects import LIMIT
-from pyrofit.show.diagnosis.words import CLAIMS, ranked, remark
-from pyrofit.show.drawn import Axes, Canvas, Look
+from pyrofit.show.diagnosis.words import CLAIMS, ranked, remark_on_candidate
+from pyrofit.show.drawn import Axes, Canvas, DrawStyle
 from pyrofit.show.figure import Figure
 
 MOST = 20
@@ -25,13 +25,13 @@ WRAP = 42
 """Letters of a line beside the candidates."""
 
 
-_BASE: Look = {"color": style.COLOURS[1], "linewidth": 1.2}
+_BASE: DrawStyle = {"color": style.COLOURS[1], "linewidth": 1.2}
 
 
-_KEPT: Look = {"marker": "o", "linestyle": "none", "color": style.COLOURS[0]}
+_KEPT: DrawStyle = {"marker": "o", "linestyle": "none", "color": style.COLOURS[0]}
 
 
-_REJECTED: Look = {**_KEPT, "markerfacecolor": "white"}
+_REJECTED: DrawStyle = {**_KEPT, "markerfacecolor": "white"}
 
 
 def ranking(study: Study, results: Results) -> Canvas:
@@ -68,7 +68,7 @@ def draw_ranking(ax: Axes, found: Diagnosis) -> None:
     for i, candidate in enumerate(shown):
         look = _REJECTED if candidate.rejected else _KEPT
         ax.plot([candidate.penalised - lowest], [i], **look, markersize=4.5)
-        place: Look = {
+        place: DrawStyle = {
             "va": "center",
             "ha": "left",
             "transform": ax.get_yaxis_transform(),
@@ -96,7 +96,7 @@ def ranking_entries(found: Diagnosis) -> list[Any]:
 
 def _reason(found: Diagnosis, candidate: OfCandidate) -> str:
     """Return the remark on a candidate, in two lines at most."""
-    said = textwrap.shorten(remark(found, candidate), 2 * WRAP - 6, placeholder=" …")
+    said = textwrap.shorten(remark_on_candidate(found, candidate), 2 * WRAP - 6, placeholder=" …")
     return textwrap.fill(said, WRAP, break_on_hyphens=False)
 
 

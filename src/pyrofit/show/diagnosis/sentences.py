@@ -22,7 +22,7 @@ from pyrofit.show.text import listed, number
 _TOO_FEW = ", too few to distinguish them"
 
 
-def facts(found: Diagnosis) -> list[str]:
+def summary_sentences(found: Diagnosis) -> list[str]:
     """Return the sentences of a summary: verdict, where, the gap, the next experiment."""
     said = [found.verdict.words, where_off(found), gap_closed(found)]
     return said + ([next_measured(found)] if found.next_experiment else [])
@@ -47,7 +47,7 @@ def where_off(found: Diagnosis) -> str:
     return f"{said} Chi-square shows no lack of fit; the test of intervals does."
 
 
-def missing(found: Diagnosis) -> str:
+def missing_sentences(found: Diagnosis) -> str:
     """Return sentences on the findings."""
     return " ".join([_found(found), *_determined(found)])
 

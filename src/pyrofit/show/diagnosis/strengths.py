@@ -12,7 +12,7 @@ from pyrofit.show.diagnosis.words import effect_name, leading
 from pyrofit.show.table import Table
 
 
-def strengths(study: Study, results: Results) -> pd.DataFrame:
+def strengths_table(study: Study, results: Results) -> pd.DataFrame:
     """List the parameters of the effects that the verdict rests on, with their intervals."""
     found = diagnosis.read(study, results)
     chosen = leading(found)
@@ -48,7 +48,7 @@ def _wider(wider: Callable[[float, float], float], end: float | None, of: float)
 
 TABLE = Table(
     place=200,
-    make=strengths,
+    make=strengths_table,
     title="Missing effects and their strengths",
     note="95 % intervals: of the strengths by profile likelihood, of other parameters linear about "
     "the fit. Wide: the interval over other forms of the effect and over other models that fit as "

@@ -10,18 +10,18 @@ from pyrofit.config import Study
 from pyrofit.results import diagnosis
 from pyrofit.results.diagnosis_schema import OfWindow
 from pyrofit.results.files import Results
-from pyrofit.show.diagnosis.words import MODELS, quantity_of, words_of
+from pyrofit.show.diagnosis.words import MODELS, quantity_of_row, words_of
 from pyrofit.show.table import Row, Table
 from pyrofit.show.units import celsius, difference, difference_unit
 
 
-def windows(study: Study, results: Results) -> pd.DataFrame:
+def windows_table(study: Study, results: Results) -> pd.DataFrame:
     """List the intervals where the simulated curve is off to one side, and the conditions there."""
     return pd.DataFrame([_window(study, w) for w in diagnosis.read(study, results).windows])
 
 
 def _window(study: Study, w: OfWindow) -> Row:
-    quantity = quantity_of(study, w)
+    quantity = quantity_of_row(study, w)
     unit = difference_unit(quantity).replace("–", "")
     relative = None if quantity.is_temperature else w.relative
     off = float(difference(quantity, w.mean))
@@ -32,18 +32,18 @@ def _window(study: Study, w: OfWindow) -> Row:
         "experiment": title_of(study, w.experiment),
         "signal": words_of(study, w),
         "phase": w.phase,
-        "time_s": between((w.start_s, w.end_s), ".0f"),
-        "temperature_C": None if kelvin is None else between(celsius(kelvin), ".0f"),
-        "conversion": between(w.conversion, ".2f"),
+        "time_s": range_text((w.start_s, w.end_s), ".0f"),
+        "temperature_C": None if kelvin is None else range_text(celsius(kelvin), ".0f"),
+        "conversion": range_text(w.conversion, ".2f"),
         "difference": f"{off:+.3g} {unit}".strip(),
         "relative_percent": np.nan if relative is None else 100.0 * relative,
     }
 
 
-def between(pair: Sequence[float] | None, digits: str) -> str | None:
+def range_text(pair: Sequence[float] | None, digits: str) -> str | None:
     """Write a range of values, nothing where there is none.
 
-    >>> between([0.1, 0.25], ".2f")
+    >>> range_text([0.1, 0.25], ".2f")
     '0.10 to 0.25'
     """
     return None if pair is None else f"{pair[0]:{digits}} to {pair[1]:{digits}}"
@@ -51,7 +51,7 @@ def between(pair: Sequence[float] | None, digits: str) -> str | None:
 
 TABLE = Table(
     place=100,
-    make=windows,
+    make=windows_table,
     title="Where model and measurement disagree",
     note="Intervals in which the residuals are biased more strongly than by noise: 1 % of studies "
     "without misfit have such an interval. Temperature: of the surface, in TGA of the programme. "

@@ -31,7 +31,7 @@ MODELS = {BASE: "base model", "extended": "with the effects found"}
 ROLES = {CALIBRATION: "fitted", HELD_OUT: "held out"}
 
 
-def quantity_of(study: Study, row: OfNoise | OfGap | OfWindow) -> Quantity:
+def quantity_of_row(study: Study, row: OfNoise | OfGap | OfWindow) -> Quantity:
     """Return the quantity of a row that names experiment and signal."""
     return study.experiments[row.experiment].quantity(row.signal)
 
@@ -88,7 +88,7 @@ def _rank(candidate: OfCandidate) -> tuple[bool, float]:
     return bool(candidate.rejected), candidate.penalised
 
 
-def remark(found: Diagnosis, candidate: OfCandidate) -> str:
+def remark_on_candidate(found: Diagnosis, candidate: OfCandidate) -> str:
     """Say why a candidate was rejected, or whether it is in the verdict if it was not."""
     kept = "in the verdict" if found.verdict.kind in CLAIMS else "not claimed"
     return candidate.rejected or kept

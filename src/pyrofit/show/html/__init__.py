@@ -14,7 +14,7 @@ from pyrofit.provenance import environment
 from pyrofit.results.code_digests import code
 from pyrofit.results.recorded import Measured
 from pyrofit.show import measured as measurements
-from pyrofit.show.parts import Part, Picture, Question, Shown
+from pyrofit.show.parts import Passage, Picture, Question, Section
 from pyrofit.show.text import typeset
 
 
@@ -23,8 +23,8 @@ def page_of(
     measured: Measured,
     title: str,
     summary: Sequence[Question],
-    sections: Sequence[Shown | None],
-    answer: Shown | None = None,
+    sections: Sequence[Section | None],
+    answer: Section | None = None,
     lacks: str = "",
     use: measurements.Use = measurements.use_in_campaign,
 ) -> str:
@@ -40,10 +40,10 @@ def page_of(
         study=study,
         title=title,
         summary=summary,
-        series=measurements.series(study, measured, use),
+        series=measurements.rows_of_series(study, measured, use),
         notes=measurements.notes(study, measured.about),
         pictures=[part for part in parts if isinstance(part, Picture)],
-        answer=next((part for part in parts if isinstance(part, Part)), None),
+        answer=next((part for part in parts if isinstance(part, Passage)), None),
         lacks=lacks,
         costs=list(study.imp.costs),
         closure=measurements.closure(study, measured.about),

@@ -27,7 +27,7 @@ _ERROR = _KAPPA * _GAMMA + 1.0 / np.arange(1, MOST_ORDER + 2)
 Solve = Callable[[FloatArray], FloatArray]
 
 
-class Bdf:
+class ReferenceBdf:
     """An integration from t to the end; `step` makes a step.
 
     Parameters

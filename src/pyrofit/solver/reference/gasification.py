@@ -14,13 +14,13 @@ from pyrofit.solver.arrays import BoolArray, FloatArray, IntArray, Status
 from pyrofit.solver.curves import Curves, Request
 from pyrofit.solver.observe import observe_one
 from pyrofit.solver.outputs import BACK, FRONT, HEAT, MASS, RATE, THICKNESS
-from pyrofit.solver.reference.bdf import Bdf
+from pyrofit.solver.reference.bdf import ReferenceBdf
 from pyrofit.solver.reference.factors import slab_factor
 from pyrofit.solver.reference.places import inside
 from pyrofit.solver.reference.slab import Slab
 from pyrofit.solver.reference.specimen import make_slab
 from pyrofit.solver.reference.substance import COLDEST_K, HOTTEST_K
-from pyrofit.solver.reference.surroundings import Fire, Outside, Piece, fire, pieces
+from pyrofit.solver.reference.surroundings import Fire, LinearPiece, Outside, fire, pieces
 
 BURNT_FRACTION = 1e-5
 """Reactant left in the sample, relative to its initial mass, at which it counts as burnt out."""
@@ -169,7 +169,7 @@ class _Run:
         self.heat_missing = self.heat_crossed = 0.0
         self.reactants = np.unique(slab.substance.reactions.reactant)
 
-    def go(self, parts: list[Piece]) -> None:
+    def go(self, parts: list[LinearPiece]) -> None:
         """Integrate over the pieces, from new at each."""
         y = self.slab.start
         with np.errstate(all="ignore"):
@@ -178,12 +178,12 @@ class _Run:
                 if not self.status.finished or self.ended < math.inf:
                     break
 
-    def _integrate(self, part: Piece, y: FloatArray) -> FloatArray:
+    def _integrate(self, part: LinearPiece, y: FloatArray) -> FloatArray:
         slab = self.slab
         tolerance = np.full(y.size, self.resolution.tolerance)
         tolerance[:: slab.stride] *= 100.0
         heat = slab.heat_in(y, slab.outside(part.start, part, y))
-        solver = Bdf(
+        solver = ReferenceBdf(
             lambda t, y: slab.derivative(y, slab.outside(t, part, y)),
             part.start,
             y,
@@ -200,7 +200,7 @@ class _Run:
             heat = self._book(before, heat, solver, part)
         return np.asarray(solver.y)
 
-    def _accept(self, solver: Bdf) -> None:
+    def _accept(self, solver: ReferenceBdf) -> None:
         """Judge a step and keep the states at the times in it."""
         self.steps += 1
         self.status = self._judge(solver)
@@ -216,7 +216,7 @@ class _Run:
             self.ended = solver.t
 
     def _book(
-        self, before: tuple[float, FloatArray], heat: float, solver: Bdf, part: Piece
+        self, before: tuple[float, FloatArray], heat: float, solver: ReferenceBdf, part: LinearPiece
     ) -> float:
         """Add a step to the heat balance, by the trapezoidal rule; return the heat flux after."""
         t, y = before
@@ -227,7 +227,7 @@ class _Run:
         self.heat_missing += half * (heat + after) - self.slab.heat_taken(y, solver.y)
         return after
 
-    def _judge(self, solver: Bdf) -> Status:
+    def _judge(self, solver: ReferenceBdf) -> Status:
         if not np.isfinite(solver.y).all():
             return Status.NON_FINITE
         T, extent = self.slab.split(solver.y)

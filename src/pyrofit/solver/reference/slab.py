@@ -23,8 +23,8 @@ from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.reference.jacobian import banded_jacobian
 from pyrofit.solver.reference.oxygen import rest_of_oxygen
 from pyrofit.solver.reference.radiation import absorbed, top_average
-from pyrofit.solver.reference.substance import COLDEST_K, HOTTEST_K, Substance
-from pyrofit.solver.reference.surroundings import Outside, Piece, Rim, Surface
+from pyrofit.solver.reference.substance import COLDEST_K, HOTTEST_K, NumericSubstance
+from pyrofit.solver.reference.surroundings import LinearPiece, Outside, ReferenceSurface, Rim
 
 GAUSS = 0.5 - 0.5 / np.sqrt(3.0), 0.5 + 0.5 / np.sqrt(3.0)
 """Points of the rule of two points on (0, 1); both weigh 1/2."""
@@ -43,7 +43,7 @@ PERTURBED_K, PERTURBED_EXTENT = 1e-3, -1e-6
 class Slab:
     """The constants of a run. Symbols: e element, n node, front first."""
 
-    substance: Substance
+    substance: NumericSubstance
     virgin: FloatArray
     """Initial mass fractions, shape (elements, components)."""
     mass: FloatArray
@@ -51,8 +51,8 @@ class Slab:
     sample: int
     """Number of elements of the sample; inert layers are behind it."""
     T_start: float
-    front: Surface
-    back: Surface
+    front: ReferenceSurface
+    back: ReferenceSurface
     back_emissivity: float
     foil_capacity: float
     """[J/(m2 K)]."""
@@ -163,7 +163,7 @@ class Slab:
             out[-1] += passing
         return out
 
-    def outside(self, t: float, piece: Piece, y: FloatArray) -> Outside:
+    def outside(self, t: float, piece: LinearPiece, y: FloatArray) -> Outside:
         """Return the quantities that depend on time, or on the whole state at once."""
         T, extent = self.split(y)
         T = np.clip(T, COLDEST_K, HOTTEST_K)

@@ -8,7 +8,7 @@ from pyrofit.model.slab import EmissivityDepth, Sample, SlabExperiment
 from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.reference.slab import Slab
-from pyrofit.solver.reference.substance import Substance, Values, mass_fractions, substance
+from pyrofit.solver.reference.substance import NumericSubstance, Values, mass_fractions, substance
 from pyrofit.solver.reference.surroundings import rim, surface
 
 
@@ -52,7 +52,7 @@ def make_slab(
 
 
 def _elements(
-    sample: Sample, material: Material, solid: Substance, values: Values, elements: int
+    sample: Sample, material: Material, solid: NumericSubstance, values: Values, elements: int
 ) -> tuple[FloatArray, FloatArray]:
     """Return the mass fractions and masses [kg/m2] of the elements before they react."""
     factor = value_of(sample.thickness_factor, values)
@@ -77,7 +77,7 @@ def _with_backing(
     virgin: FloatArray,
     mass: FloatArray,
     sample: Sample,
-    solid: Substance,
+    solid: NumericSubstance,
     values: Values,
     count: int,
 ) -> tuple[FloatArray, FloatArray]:
@@ -103,7 +103,7 @@ def _foil(sample: Sample, values: Values) -> tuple[float, float]:
 
 def _mixing_depth(
     given: float | str | EmissivityDepth,
-    solid: Substance,
+    solid: NumericSubstance,
     share: FloatArray,
     T: float,
     values: Values,

@@ -160,7 +160,7 @@ class Reactions:
 
 
 @dataclass(frozen=True)
-class Substance:
+class NumericSubstance:
     """A material with numbers."""
 
     names: list[str]
@@ -180,7 +180,7 @@ def substance(
     values: Values,
     absorption_length: float = 0.0,
     density_factor: float = 1.0,
-) -> Substance:
+) -> NumericSubstance:
     """Return the material with the numbers of the given parameter values.
 
     An ``absorption_length`` [m] above zero replaces that of every component of the material itself;
@@ -197,7 +197,7 @@ def substance(
         kappa |= opaque
     own = np.isin(list(material.components), sorted(material.own))
     denser = np.where(own, density_factor, 1.0)
-    return Substance(
+    return NumericSubstance(
         names=list(material.components),
         density=denser * np.array([value_of(c.density_kg_m3, values) for c in parts]),
         expansion=Property(tuple(c.expansion for c in parts), values),

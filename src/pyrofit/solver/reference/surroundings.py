@@ -24,7 +24,7 @@ def approached(t: float, time: float) -> float:
 
 
 @dataclass(frozen=True)
-class Line:
+class LineOverTime:
     """A value that is given over time, between two points of its table."""
 
     times: tuple[float, ...]
@@ -40,24 +40,24 @@ class Line:
         return self.values[n - 1] + part * (self.values[n] - self.values[n - 1])
 
 
-def line(given: OverTime, values: Values) -> Line:
+def line_over_time(given: OverTime, values: Values) -> LineOverTime:
     """Return a table with numbers; a number is a table of one point."""
     if isinstance(given, TimeTable):
-        return Line(given.time_s, tuple(value_of(v, values) for v in given.value))
-    return Line((0.0,), (value_of(given, values),))
+        return LineOverTime(given.time_s, tuple(value_of(v, values) for v in given.value))
+    return LineOverTime((0.0,), (value_of(given, values),))
 
 
 @dataclass(frozen=True)
-class Surface:
+class ReferenceSurface:
     """Exchange of a side with its surroundings."""
 
-    h: Line
+    h: LineOverTime
     h_cube_root: float
-    gas: Line
+    gas: LineOverTime
     """Gas temperature without its rise [K]."""
     gas_rise: float
     gas_rise_time: float
-    wall: Line
+    wall: LineOverTime
 
     def convection(
         self, T: FloatArray | float, t: float, piece: tuple[float, float]
@@ -78,16 +78,16 @@ class Surface:
         return np.asarray(emissivity * STEFAN_BOLTZMANN * net - h * above)
 
 
-def surface(side: Side, values: Values, factor: float = 1.0) -> Surface:
+def surface(side: Side, values: Values, factor: float = 1.0) -> ReferenceSurface:
     """Return one side with numbers, its convection multiplied by the factor."""
-    h, change = line(side.h_W_m2K, values), value_of(side.h_change_W_m2K, values)
-    return Surface(
-        h=Line(h.times, tuple(factor * max(at + change, 0.0) for at in h.values)),
+    h, change = line_over_time(side.h_W_m2K, values), value_of(side.h_change_W_m2K, values)
+    return ReferenceSurface(
+        h=LineOverTime(h.times, tuple(factor * max(at + change, 0.0) for at in h.values)),
         h_cube_root=factor * value_of(side.h_cube_root_W_m2K43, values),
-        gas=line(side.gas_temperature_K, values),
+        gas=line_over_time(side.gas_temperature_K, values),
         gas_rise=value_of(side.gas_rise_K, values),
         gas_rise_time=value_of(side.gas_rise_time_s, values),
-        wall=line(side.wall_temperature_K, values),
+        wall=line_over_time(side.wall_temperature_K, values),
     )
 
 
@@ -135,12 +135,12 @@ class Heater:
 
 
 @dataclass(frozen=True)
-class Piece:
+class LinearPiece:
     """A time in which everything given is linear."""
 
     start: float
     end: float
-    flux: Line
+    flux: LineOverTime
     heater: Heater
     flame: float = 0.0
     """Heat flux of the flame [W/m2]."""
@@ -178,7 +178,7 @@ def fire(flame: Flame | None, values: Values) -> Fire:
 
 def pieces(
     experiment: SlabExperiment, flame: Fire, values: Values, end: float, factor: float = 1.0
-) -> Iterator[Piece]:
+) -> Iterator[LinearPiece]:
     """Yield the pieces between all given times up to the end, of ``factor`` times the flux."""
     front = experiment.front
     heater = Heater(
@@ -187,17 +187,17 @@ def pieces(
         value_of(front.drift_1_s, values),
         value_of(front.drift_time_s, values),
     )
-    flux = line(front.flux_W_m2, values)
+    flux = line_over_time(front.flux_W_m2, values)
     given = [flux]
     for side in (front, experiment.back):
         of_side = (side.h_W_m2K, side.gas_temperature_K, side.wall_temperature_K)
-        given += [line(one, values) for one in of_side]
+        given += [line_over_time(one, values) for one in of_side]
     times = {t for one in given for t in one.times} | {flame.begins, flame.ends}
     for start, until in pairwise(sorted({t for t in times if t < end} | {end})):
         lit = flame.begins <= start < flame.ends
         burns = lit and experiment.burning() is not None
         oxygen = 0.0 if burns else value_of(experiment.oxygen, values)
-        yield Piece(start, until, flux, heater, flame.flux if lit else 0.0, oxygen)
+        yield LinearPiece(start, until, flux, heater, flame.flux if lit else 0.0, oxygen)
 
 
 class Outside(NamedTuple):

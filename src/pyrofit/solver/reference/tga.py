@@ -13,9 +13,14 @@ from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray, Status
 from pyrofit.solver.curves import Curves, Request
 from pyrofit.solver.outputs import FRACTION_RATE, HEAT_FLOW, HEAT_RELEASE, MASS_FRACTION
-from pyrofit.solver.reference.bdf import Bdf
+from pyrofit.solver.reference.bdf import ReferenceBdf
 from pyrofit.solver.reference.factors import dense_factor
-from pyrofit.solver.reference.substance import Reactions, Substance, mass_fractions, substance
+from pyrofit.solver.reference.substance import (
+    NumericSubstance,
+    Reactions,
+    mass_fractions,
+    substance,
+)
 
 PERTURBED = 1e-7
 """Difference of an extent for the Jacobian."""
@@ -97,7 +102,7 @@ class _Sample:
 
 
 def _heat_flow(
-    solid: Substance, mass: FloatArray, rate: FloatArray, T: FloatArray, rise: FloatArray
+    solid: NumericSubstance, mass: FloatArray, rate: FloatArray, T: FloatArray, rise: FloatArray
 ) -> FloatArray:
     """Return sum_i m_i c_i(T) dT/dt + sum_j dh_j r_j [W/kg], shape (points,)."""
     sensible = np.sum(mass * solid.specific_heat.of(T), axis=1) * rise
@@ -148,7 +153,7 @@ def _heat(
     if sample.tau > 0.0:
         # The last unknown is a heat release rate, not a part of the sample.
         absolute[-1] *= max(1.0, float(np.max(np.abs(sample.burning), initial=0.0)))
-    solver = Bdf(derivative, *ends, own, absolute, jacobian, dense_factor)
+    solver = ReferenceBdf(derivative, *ends, own, absolute, jacobian, dense_factor)
     states = np.empty((time.size, start.size))
     states[0] = start
     filled, steps = 1, 0

@@ -35,7 +35,7 @@ def run(study: Study, results: Results, tell: Tell, processes: int) -> None:
         if not times or not isinstance(flux, float) or flux <= 0.0:
             left_out.append(name)
             continue
-        tests.append(record.OfTest(experiment=name, flux_W_m2=flux, time_s=times))
+        tests.append(record.OfIgnition(experiment=name, flux_W_m2=flux, time_s=times))
     if not tests:
         raise DataError(
             f"study '{study.name}': no slab has a radiant flux as a number and a time of ignition. "
@@ -54,8 +54,8 @@ def run(study: Study, results: Results, tell: Tell, processes: int) -> None:
 
 
 def _line(
-    tests: list[record.OfTest], definition: str, law: Law, options: IgnitionOptions
-) -> record.OfSeries:
+    tests: list[record.OfIgnition], definition: str, law: Law, options: IgnitionOptions
+) -> record.OfLine:
     """Return the line through the times of a definition."""
     of = [(test.flux_W_m2, test.time_s[definition]) for test in tests if definition in test.time_s]
     ignited = [(flux, time) for flux, time in of if time is not None and time > 0.0]
@@ -71,7 +71,7 @@ def _line(
         if critical is None
         else ignition_temperature(critical, options.emissivity, options.convection_W_m2K)
     )
-    return record.OfSeries(
+    return record.OfLine(
         definition=definition,
         law=law,
         tests=len(ignited),

@@ -13,7 +13,7 @@ from pyrofit.steps.ignition.record import read
 from pyrofit.steps.ignition.times import DEFINITIONS
 
 
-def draw(study: Study, results: Results) -> Canvas:
+def draw_fluxes(study: Study, results: Results) -> Canvas:
     """Draw t^(-1/2) of each definition against the flux, with the lines of a thick solid."""
     found = read(study, results)
     canvas, (ax,) = style.panels(1, 1, style.TWO_COLUMNS, 75.0)
@@ -45,7 +45,7 @@ def draw(study: Study, results: Results) -> Canvas:
 FIGURES = {
     "fluxes": Figure(
         place=10,
-        make=draw,
+        make=draw_fluxes,
         title="Times to ignition against the radiant flux",
         caption="Inverse square root of the time to ignition by each definition. A thermally thick "
         "solid gives a straight line; it meets zero at the critical heat flux. A line is missing "

@@ -8,7 +8,7 @@ from pyrofit.steps.ignition.record import FILE
 
 def slice_of(study: Study) -> dependencies.Slice:
     """Return experiments and their files."""
-    return {"experiments": dependencies.measured(study)}
+    return {"experiments": dependencies.measured_slice(study)}
 
 
 INPUTS = Inputs(

@@ -13,7 +13,7 @@ from pyrofit.steps.ignition.times import DEFINITIONS
 _LAWS = {"thick": "thermally thick", "janssens": "Janssens", "thin": "thermally thin"}
 
 
-def times(study: Study, results: Results) -> pd.DataFrame:
+def times_table(study: Study, results: Results) -> pd.DataFrame:
     """List the time to ignition of each test by definition."""
     return pd.DataFrame(
         [
@@ -32,7 +32,7 @@ def lines(study: Study, results: Results) -> pd.DataFrame:
     return pd.DataFrame([_row(of) for of in record.read(study, results).series])
 
 
-def _row(of: record.OfSeries) -> dict[str, object]:
+def _row(of: record.OfLine) -> dict[str, object]:
     return {
         "definition": of.definition,
         "relation": _LAWS[of.law],
@@ -87,7 +87,7 @@ PAGE = page_of_step(
     tables={
         "times": Table(
             place=60,
-            make=times,
+            make=times_table,
             title="Times to ignition [s]",
             note="; ".join(f"{name}: {words}" for name, words in DEFINITIONS.items()),
         ),

@@ -9,7 +9,7 @@ from pyrofit.results.record import Record, read_record, write_record
 FILE = "ignition.json"
 
 
-class OfTest(Record):
+class OfIgnition(Record):
     """A test."""
 
     experiment: str = Field(description="name of the experiment")
@@ -19,7 +19,7 @@ class OfTest(Record):
     )
 
 
-class OfSeries(Record):
+class OfLine(Record):
     """The line of a relation through the times of a definition."""
 
     definition: str = Field(description="definition of the time")
@@ -42,8 +42,8 @@ class Ignition(Record):
     """The result."""
 
     study: str = Field(description="name of the study")
-    tests: list[OfTest] = Field(description="the tests")
-    series: list[OfSeries] = Field(description="the lines")
+    tests: list[OfIgnition] = Field(description="the tests")
+    series: list[OfLine] = Field(description="the lines")
     left_out: list[str] = Field(description="slabs without a rate, or without a number as flux")
 
 

@@ -35,7 +35,7 @@ Interval = tuple[float, float]
 
 
 @dataclass(frozen=True)
-class Line:
+class RelationLine:
     """The line of a relation through times to ignition; None where it is not determined.
 
     Parameters
@@ -64,7 +64,7 @@ class Line:
 
 def line_of(
     law: Law, flux: Sequence[float], time: Sequence[float], without: Sequence[float] = ()
-) -> Line:
+) -> RelationLine:
     """Return the line of a relation through times to ignition.
 
     Parameters
@@ -86,7 +86,9 @@ def line_of(
     q, t = np.asarray(flux, float), np.asarray(time, float)
     if q.size < FEWEST or np.unique(q).size < 2:
         few = f"{q.size} tests with ignition at {np.unique(q).size} fluxes"
-        return Line(law, remarks=(f"{few}: a line needs {FEWEST} tests at 2 fluxes or more",))
+        return RelationLine(
+            law, remarks=(f"{few}: a line needs {FEWEST} tests at 2 fluxes or more",)
+        )
     y = functions.power(t, -EXPONENTS[law])
     mean, away = y.mean(), q - q.mean()
     spread = linear.dot(away, away)
@@ -97,7 +99,7 @@ def line_of(
     curved = slope**2 - reach / spread
     if slope <= 0.0 or curved <= 0.0:
         why = "the times hardly depend on the flux: nothing is determined by this line"
-        return Line(law, remarks=(why,))
+        return RelationLine(law, remarks=(why,))
     critical = float(q.mean() - mean / slope)
     root = np.sqrt(max((mean * slope) ** 2 - curved * (mean**2 - reach / q.size), 0.0))
     lower, upper = (float(q.mean() + (-mean * slope + s * root) / curved) for s in (-1.0, 1.0))
@@ -115,7 +117,7 @@ def line_of(
         scatter = float(np.sqrt(np.mean(logs**2)))
     remarks = _remarks(critical, (lower, upper), q, without)
     told = critical > 0.0
-    return Line(
+    return RelationLine(
         law,
         critical if told else None,
         (max(lower, 0.0), upper) if told else None,

@@ -48,7 +48,7 @@ class Predicted:
     """Standard deviation of its noise."""
 
 
-def predicted(
+def predict_with_bands(
     study: Study, found: Sampled, measurements: Measurements, fixed: Mapping[str, float]
 ) -> tuple[pd.DataFrame, list[OfBand]]:
     """Return the bands of all signals over time, and the numbers that describe them.

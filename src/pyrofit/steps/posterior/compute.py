@@ -19,9 +19,9 @@ from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages.fit import fixed_for_imp
 from pyrofit.stages.imp_likelihood import imp_likelihood
 from pyrofit.steps.posterior import record
-from pyrofit.steps.posterior.bands import predicted
+from pyrofit.steps.posterior.bands import predict_with_bands
 from pyrofit.steps.posterior.options import PosteriorOptions
-from pyrofit.steps.posterior.record import OfBand, OfDiscrepancy, OfParameter, Posterior
+from pyrofit.steps.posterior.record import OfBand, OfDiscrepancy, OfDraws, SampledPosterior
 
 KEPT = 4000
 """Draws that are kept for figures."""
@@ -51,7 +51,7 @@ def run(study: Study, results: Results, tell: Tell, processes: int) -> None:
     options = study.options(PosteriorOptions)
     found = sample(likelihood, start, study.seed, processes, options.steps, tell)
     measurements, fixed = load(study, results), fixed_for_imp(study, results)
-    bands, of_bands = predicted(study, found, measurements, fixed)
+    bands, of_bands = predict_with_bands(study, found, measurements, fixed)
     _write(study, results, found, fixed, options.sets)
     write_csv(results.of_step("posterior", record.BANDS), bands)
     record.write(results, _found(study, found, of_bands, options.sets))
@@ -73,7 +73,7 @@ def likelihood_and_optimum(study: Study, results: Results) -> tuple[Likelihood, 
         )
     likelihood = imp_likelihood(study, results, of_imp(study))
     start = likelihood.scaled(identification.estimates(study, results)["estimate"].to_numpy(float))
-    known = identification.noise(results).chi2
+    known = identification.read_noise(results).chi2
     residuals = likelihood.residuals(start)[: sum(likelihood.points)]
     now = linear.dot(residuals, residuals)
     if abs(now - known) > CHANGED * known:
@@ -112,10 +112,10 @@ def _correlation(draws: FloatArray) -> FloatArray:
     return linear.correlation(draws.T)
 
 
-def _found(study: Study, found: Sampled, bands: list[OfBand], sets: int) -> Posterior:
+def _found(study: Study, found: Sampled, bands: list[OfBand], sets: int) -> SampledPosterior:
     drawn = found.drawn
     picks = found.likelihood.problem.picks
-    return Posterior(
+    return SampledPosterior(
         study=study.name,
         seed=study.seed,
         chi2=found.chi2,
@@ -146,7 +146,7 @@ def _found(study: Study, found: Sampled, bands: list[OfBand], sets: int) -> Post
     )
 
 
-def _parameters(found: Sampled) -> list[OfParameter]:
+def _parameters(found: Sampled) -> list[OfDraws]:
     values = found.likelihood.values(found.drawn.flat)
     quantiles = np.quantile(values, (0.025, 0.5, 0.975), 0)
     columns = {
@@ -157,6 +157,6 @@ def _parameters(found: Sampled) -> list[OfParameter]:
         "ess": found.drawn.ess,
     }
     return [
-        OfParameter(name=name, **{key: float(column[i]) for key, column in columns.items()})
+        OfDraws(name=name, **{key: float(column[i]) for key, column in columns.items()})
         for i, name in enumerate(found.likelihood.problem.names)
     ]

@@ -9,17 +9,17 @@ from pyrofit.quantities import known_quantities
 from pyrofit.quantities.base import Quantity
 from pyrofit.results.files import Results
 from pyrofit.show import style
-from pyrofit.show.curves import label_axes, label_of
-from pyrofit.show.drawn import Axes, Canvas, Line2D, Look, Patch
+from pyrofit.show.curves import label_axes, label_of_axis
+from pyrofit.show.drawn import Axes, Canvas, DrawStyle, Line2D, Patch
 from pyrofit.show.figure import Figure
 from pyrofit.show.units import shown
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.steps.posterior import record
-from pyrofit.steps.posterior.record import OfParameter
+from pyrofit.steps.posterior.record import OfDraws
 
 WIDE, DARK, NARROW = "#A9BED6", "#5C86B3", "#004488"
 BINS = 40
-_TRUTH: Look = {"color": style.COLOURS[1], "linewidth": 1.0, "linestyle": (0, (5, 1.5))}
+_TRUTH: DrawStyle = {"color": style.COLOURS[1], "linewidth": 1.0, "linestyle": (0, (5, 1.5))}
 Entries = list[Line2D | Patch]
 
 
@@ -31,9 +31,9 @@ def quantity_of(study: Study, experiment: str, signal: str) -> Quantity:
     return known_quantities()[signal]
 
 
-def bands(study: Study, results: Results) -> Canvas:
+def draw_bands(study: Study, results: Results) -> Canvas:
     """Draw measured signals and the bands of their predictions."""
-    frame = record.bands(results)
+    frame = record.read_predicted_bands(results)
     found = record.read(study, results)
     canvas, axes = style.panels(len(found.bands), 2, style.TWO_COLUMNS, 62.0)
     titles = [f"{title_of(study, of.experiment)}, {of.role}" for of in found.bands]
@@ -54,7 +54,7 @@ def bands(study: Study, results: Results) -> Canvas:
 
 def _label(study: Study, of: record.OfBand) -> str:
     if of.role != "not measured":
-        return label_of(study, of.experiment, of.signal)
+        return label_of_axis(study, of.experiment, of.signal)
     quantity = quantity_of(study, of.experiment, of.signal)
     return f"{of.signal.replace('_', ' ')} [{quantity.shown.unit}]"
 
@@ -73,7 +73,7 @@ def _draw_bands(ax: Axes, study: Study, frame: pd.DataFrame) -> None:
     ax.plot(time, shown(quantity, frame["median"]), color=NARROW, linewidth=0.9)
 
 
-def parameters(study: Study, results: Results) -> Canvas:
+def draw_parameters(study: Study, results: Results) -> Canvas:
     """Draw the distribution of each parameter."""
     draws = record.samples(study, results)
     found = record.read(study, results).parameters
@@ -91,7 +91,7 @@ def parameters(study: Study, results: Results) -> Canvas:
     return canvas
 
 
-def _draw_parameter(ax: Axes, study: Study, of: OfParameter, draws: FloatArray) -> None:
+def _draw_parameter(ax: Axes, study: Study, of: OfDraws, draws: FloatArray) -> None:
     parameter = study.parameters[of.name]
     heights, _, _ = ax.hist(draws / parameter.factor, bins=BINS, color=WIDE, density=True)
     y = 0.08 * float(np.max(heights))
@@ -108,7 +108,7 @@ def _draw_parameter(ax: Axes, study: Study, of: OfParameter, draws: FloatArray) 
 FIGURES = {
     "bands": Figure(
         place=10,
-        make=bands,
+        make=draw_bands,
         title="Predicted signals with 95 % bands",
         caption="The dark band contains the uncertainty of the parameters alone. The light band "
         "includes the model discrepancy. Both are for the curve without noise. In a fitted signal "
@@ -117,7 +117,7 @@ FIGURES = {
     ),
     "parameters": Figure(
         place=20,
-        make=parameters,
+        make=draw_parameters,
         title="Distribution of the parameters",
         caption="Draws from the posterior; bars: 95 % intervals, marks: means.",
     ),

@@ -9,8 +9,8 @@ from pyrofit.steps.posterior import record
 def slice_of(study: Study) -> dependencies.Slice:
     """Return the likelihood and all predicted experiments."""
     return {
-        "likelihood": dependencies.identify(study),
-        "validation": dependencies.validation(study),
+        "likelihood": dependencies.identify_slice(study),
+        "validation": dependencies.validation_slice(study),
         "seed": study.seed,
     }
 

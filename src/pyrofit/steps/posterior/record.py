@@ -20,7 +20,7 @@ Role = Literal["fitted", "held out", "not measured"]
 _BAND = ("low", "median", "high", "parameters_low", "parameters_median", "parameters_high")
 
 
-class OfParameter(Record):
+class OfDraws(Record):
     """Statistics of a parameter's draws, SI units."""
 
     name: str = Field(description="name of the parameter")
@@ -58,7 +58,7 @@ class OfBand(Record):
     )
 
 
-class Posterior(Record):
+class SampledPosterior(Record):
     """The result."""
 
     study: str = Field(description="name of the study")
@@ -75,17 +75,17 @@ class Posterior(Record):
     accepted: float = Field(description="share of proposals taken")
     times: float = Field(description="longest autocorrelation time in steps")
     sets: int = Field(description="sets of the ensemble that was written, of equal weight")
-    parameters: list[OfParameter] = Field(min_length=1, description="the parameters")
+    parameters: list[OfDraws] = Field(min_length=1, description="the parameters")
     discrepancies: list[OfDiscrepancy] = Field(min_length=1, description="discrepancies by signal")
     bands: list[OfBand] = Field(description="the predicted signals")
 
 
-def write(results: Results, found: Posterior) -> None:
+def write(results: Results, found: SampledPosterior) -> None:
     """Write the results."""
     write_record(results.of_step("posterior", FILE), found)
 
 
-def read(study: Study, results: Results) -> Posterior:
+def read(study: Study, results: Results) -> SampledPosterior:
     """Return the results.
 
     Raises
@@ -95,20 +95,20 @@ def read(study: Study, results: Results) -> Posterior:
     """
     names = list(study.imp.estimate)
 
-    def is_ours(found: Posterior) -> bool:
+    def is_ours(found: SampledPosterior) -> bool:
         return found.study == study.name and [p.name for p in found.parameters] == names
 
-    return read_record(results.of_step("posterior", FILE), Posterior, is_ours)
+    return read_record(results.of_step("posterior", FILE), SampledPosterior, is_ours)
 
 
-def correlation(study: Study, results: Results) -> pd.DataFrame:
+def read_correlation(study: Study, results: Results) -> pd.DataFrame:
     """Return the correlation of the draws, by name."""
     names = list(study.imp.estimate)
     columns = {"parameter": object, **dict.fromkeys(names, float)}
     return read_csv(results.of_step("posterior", CORRELATION), columns).set_index("parameter")
 
 
-def bands(results: Results) -> pd.DataFrame:
+def read_predicted_bands(results: Results) -> pd.DataFrame:
     """Return the bands of all predicted signals, SI units."""
     columns = {"experiment": object, "signal": object, **dict.fromkeys(("time_s", *_BAND), float)}
     return read_csv(results.of_step("posterior", BANDS), columns)

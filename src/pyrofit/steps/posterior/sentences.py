@@ -5,7 +5,7 @@ from pyrofit.estimate.convergence import ENOUGH_TIMES, ESS, RHAT
 from pyrofit.results.files import Results
 from pyrofit.show.text import listed, several
 from pyrofit.steps.posterior import record
-from pyrofit.steps.posterior.record import Posterior
+from pyrofit.steps.posterior.record import SampledPosterior
 
 CHANCE = 0.05
 """Chance of a chi-square below which noise alone does not explain the data."""
@@ -21,7 +21,7 @@ def sentences(study: Study, results: Results) -> list[str]:
     return [_converged(found), _adequate(found), *_bands(found), *_missing(found), _ensemble(found)]
 
 
-def _converged(found: Posterior) -> str:
+def _converged(found: SampledPosterior) -> str:
     rhat = max(p.rhat for p in found.parameters)
     ess = min(p.ess for p in found.parameters)
     reached = (
@@ -39,7 +39,7 @@ def _converged(found: Posterior) -> str:
     )
 
 
-def _adequate(found: Posterior) -> str:
+def _adequate(found: SampledPosterior) -> str:
     ratio = found.chi2 / found.freedom
     size = f"chi-square per degree of freedom {ratio:.3g}, p = {found.probability:.2g}"
     if found.probability < CHANCE:
@@ -57,7 +57,7 @@ def _adequate(found: Posterior) -> str:
     )
 
 
-def _bands(found: Posterior) -> list[str]:
+def _bands(found: SampledPosterior) -> list[str]:
     """Say whether the bands contain the held-out measurements."""
     held = [of for of in found.bands if of.role == "held out" and of.inside is not None]
     low = [of for of in held if of.inside is not None and of.inside < INSIDE]
@@ -76,7 +76,7 @@ def _bands(found: Posterior) -> list[str]:
     return said
 
 
-def _missing(found: Posterior) -> list[str]:
+def _missing(found: SampledPosterior) -> list[str]:
     names = [f"{of.experiment} {of.signal}" for of in found.bands if not of.lacking]
     if not names:
         return []
@@ -86,7 +86,7 @@ def _missing(found: Posterior) -> list[str]:
     ]
 
 
-def _ensemble(found: Posterior) -> str:
+def _ensemble(found: SampledPosterior) -> str:
     return (
         f"For predictions, use the ensemble of {found.sets} sets of equal weight rather than one "
         "set: posterior/ensemble.csv, and posterior/sets for other programs."

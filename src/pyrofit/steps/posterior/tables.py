@@ -9,7 +9,7 @@ from pyrofit.show.table import Table
 from pyrofit.steps.posterior import record
 
 
-def parameters(study: Study, results: Results) -> pd.DataFrame:
+def parameters_table_of_draws(study: Study, results: Results) -> pd.DataFrame:
     """List mean, sd, interval and convergence of each parameter, in the study's units."""
     rows = []
     for of in record.read(study, results).parameters:
@@ -21,9 +21,9 @@ def parameters(study: Study, results: Results) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def correlations(study: Study, results: Results) -> pd.DataFrame:
+def correlations_table(study: Study, results: Results) -> pd.DataFrame:
     """List the correlation of each two parameters, the strongest first."""
-    matrix = record.correlation(study, results)
+    matrix = record.read_correlation(study, results)
     names = list(matrix)
     values = matrix.to_numpy(float)
     pairs = [(i, k) for i in range(len(names)) for k in range(i)]
@@ -34,7 +34,7 @@ def correlations(study: Study, results: Results) -> pd.DataFrame:
     )
 
 
-def lacking(study: Study, results: Results) -> pd.DataFrame:
+def lacking_table(study: Study, results: Results) -> pd.DataFrame:
     """List the model discrepancy of each fitted signal."""
     found = record.read(study, results).discrepancies
     return pd.DataFrame(
@@ -52,7 +52,7 @@ def lacking(study: Study, results: Results) -> pd.DataFrame:
     )
 
 
-def bands(study: Study, results: Results) -> pd.DataFrame:
+def bands_table(study: Study, results: Results) -> pd.DataFrame:
     """List the widths of the bands, and the share of the measured points inside."""
     found = record.read(study, results).bands
     return pd.DataFrame(
@@ -73,7 +73,7 @@ def bands(study: Study, results: Results) -> pd.DataFrame:
 TABLES = {
     "parameters": Table(
         place=60,
-        make=parameters,
+        make=parameters_table_of_draws,
         title="Parameters by sampling",
         note="95 % interval: 2.5 and 97.5 % quantiles of the draws. R-hat compares independent "
         "ensembles: below 1.05 they agree. ESS: effective sample size.",
@@ -86,13 +86,13 @@ TABLES = {
     ),
     "correlations": Table(
         place=70,
-        make=correlations,
+        make=correlations_table,
         title="Correlation of the parameters by sampling",
         shown=False,
     ),
     "lacking": Table(
         place=80,
-        make=lacking,
+        make=lacking_table,
         title="Model discrepancy of each fitted signal",
         note="Standard deviations of the relative errors of level and time, and of the offset over "
         "the range of the curve. The correlation time is divided by the time at which the total "
@@ -101,7 +101,7 @@ TABLES = {
     ),
     "bands": Table(
         place=90,
-        make=bands,
+        make=bands_table,
         title="Widths of the 95 % bands",
         note="Mean widths over the range of the curve, for parameters alone and with model "
         "discrepancy. The last column is the share of measured points within the band of new "

@@ -10,18 +10,18 @@ from pyrofit.config import Study
 from pyrofit.steps.preview.corrections import (
     LIMITS,
     ORDER,
-    Correction,
-    corrections,
+    LikelyCause,
+    possible_corrections,
 )
-from pyrofit.steps.preview.fit import Nearest, misfits, nearest
+from pyrofit.steps.preview.fit import Nearest, nearest, relative_misfits
 from pyrofit.steps.preview.reach import (
     OUTSIDE,
-    Case,
     Channel,
     Curves,
     Reached,
+    RecordedCases,
     all_reached,
-    simulate,
+    simulate_all,
 )
 from pyrofit.steps.preview.sets import Sets
 
@@ -99,7 +99,7 @@ def is_far(left: Mapping[Channel, float]) -> bool:
 
 def likely(
     study: Study,
-    case: Case,
+    case: RecordedCases,
     sets: Sets,
     suspected: Sequence[Channel],
     mostly: Collection[Channel],
@@ -122,8 +122,11 @@ def likely(
         The set that comes nearest to all records, as they are described.
     """
     few = sets.first(TRIED_SETS)
-    known = simulate(study, case, few)
-    tried = [_tried(study, case, few, known, one) for one in corrections(case, suspected, mostly)]
+    known = simulate_all(study, case, few)
+    tried = [
+        _tried(study, case, few, known, one)
+        for one in possible_corrections(case, suspected, mostly)
+    ]
     chosen = _chosen(case, [one for one in tried if one is not None])
     total = _mean_square(before.left)
     found = []
@@ -163,31 +166,31 @@ def _distinct(causes: Iterable[Cause]) -> list[Cause]:
 class _Tried:
     """A correction with the corrected case, its sets and their curves."""
 
-    correction: Correction
-    case: Case
+    correction: LikelyCause
+    case: RecordedCases
     sets: Sets
     curves: Curves
 
     @property
     def first(self) -> float:
         """Mean square difference of the best set drawn."""
-        squares = misfits(all_reached(self.case, self.curves)) ** 2
+        squares = relative_misfits(all_reached(self.case, self.curves)) ** 2
         return float(np.min(np.mean(squares, axis=1)))
 
 
 def _tried(
-    study: Study, case: Case, sets: Sets, known: Curves, correction: Correction
+    study: Study, case: RecordedCases, sets: Sets, known: Curves, correction: LikelyCause
 ) -> _Tried | None:
     """Return a correction that was tried; none if the description does not allow it."""
     try:
         corrected = correction.change(case)
     except ValueError:
         return None
-    curves = simulate(study, corrected, sets, (case, known))
+    curves = simulate_all(study, corrected, sets, (case, known))
     return _Tried(correction, corrected, sets, curves)
 
 
-def _chosen(case: Case, tried: list[_Tried]) -> list[_Tried]:
+def _chosen(case: RecordedCases, tried: list[_Tried]) -> list[_Tried]:
     """Return the corrections that are fitted: the best, two of a kind at a place at most."""
     tests = max(len({name for name, _ in case.frames}), 1)
     fits = min(max(FITTED_TESTS // tests, FEWEST_FITS), MOST_FITS)
@@ -201,7 +204,9 @@ def _chosen(case: Case, tried: list[_Tried]) -> list[_Tried]:
     return chosen[:fits]
 
 
-def _wider_limits(study: Study, case: Case, sets: Sets, before: Nearest) -> Iterator[_Tried]:
+def _wider_limits(
+    study: Study, case: RecordedCases, sets: Sets, before: Nearest
+) -> Iterator[_Tried]:
     """Yield wider limits of the parameters that the nearest set has at a limit."""
     for i, name in enumerate(sets.names):
         at = float(before.unit[i])
@@ -214,8 +219,8 @@ def _wider_limits(study: Study, case: Case, sets: Sets, before: Nearest) -> Iter
         unit[i] = (low + at * (high - low) - new[0]) / (new[1] - new[0])
         wider = replace(wider, unit=np.vstack([unit, wider.unit]))
         words = f"the limits of {name}, {p.lower:g} to {p.upper:g} {p.unit}, are too narrow"
-        correction = Correction(LIMITS, (name,), words, lambda case: case)
-        yield _Tried(correction, case, wider, simulate(study, case, wider))
+        correction = LikelyCause(LIMITS, (name,), words, lambda case: case)
+        yield _Tried(correction, case, wider, simulate_all(study, case, wider))
 
 
 def _wider(low: float, high: float, unit: str) -> tuple[float, float]:

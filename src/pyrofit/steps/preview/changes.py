@@ -7,12 +7,12 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.effects.base import changed
-from pyrofit.steps.preview.reach import NOISE, Case, Channel
+from pyrofit.steps.preview.reach import NOISE, Channel, RecordedCases
 
 USUAL_C, ENDS = 1500.0, 0.1
 """Specific heat [J/(kg K)] that a heat flow shows at its ends, each a tenth of the points."""
 
-Change = Callable[[Case], Case]
+Change = Callable[[RecordedCases], RecordedCases]
 
 
 def multiplied(factor: float) -> Callable[[Any], Any]:
@@ -25,7 +25,7 @@ def part_changed(
 ) -> Change:
     """Return the change of one number of a part of the description."""
 
-    def change(case: Case) -> Case:
+    def change(case: RecordedCases) -> RecordedCases:
         experiment: Any = case.experiments[name]
         part = getattr(experiment, place)
         old = getattr(part, key)
@@ -46,7 +46,7 @@ def column_changed(
 ) -> Change:
     """Return the change of a column of records: the one named, else that of the values."""
 
-    def apply(case: Case) -> Case:
+    def apply(case: RecordedCases) -> RecordedCases:
         for signal in signals:
             own = column or case.experiments[name].quantity(signal).column
             frame = case.frames[name, signal]
@@ -63,7 +63,7 @@ def column_changed(
 def shifted(name: str, signals: Sequence[str], shift: float) -> Change:
     """Return the shift of records in time; points before the start of the test are left out."""
 
-    def apply(case: Case) -> Case:
+    def apply(case: RecordedCases) -> RecordedCases:
         for signal in signals:
             frame = case.frames[name, signal]
             frame = frame.assign(time_s=frame["time_s"] + shift)
@@ -78,7 +78,7 @@ def shifted(name: str, signals: Sequence[str], shift: float) -> Change:
 def heated_at(name: str, signals: Sequence[str], rate: float, factor: float) -> Change:
     """Return the change of a heating rate, and of the times that rest on it."""
 
-    def apply(case: Case) -> Case:
+    def apply(case: RecordedCases) -> RecordedCases:
         experiment = case.experiments[name]
         for signal in signals:
             frame = case.frames[name, signal]
@@ -91,7 +91,7 @@ def heated_at(name: str, signals: Sequence[str], rate: float, factor: float) -> 
 def without_baselines(of: Sequence[Channel]) -> Change:
     """Return heat flows less a line, so that their ends are those of a usual specific heat."""
 
-    def apply(case: Case) -> Case:
+    def apply(case: RecordedCases) -> RecordedCases:
         for channel in of:
             name, signal = channel
             frame, column = case.frames[channel], case.experiments[name].quantity(signal).column
@@ -114,7 +114,7 @@ def without_baselines(of: Sequence[Channel]) -> Change:
 def before_backing(of: Sequence[Channel]) -> Change:
     """Return back temperatures as those between the layers of a sample and its backing."""
 
-    def apply(case: Case) -> Case:
+    def apply(case: RecordedCases) -> RecordedCases:
         for name, signal in of:
             slab: Any = case.experiments[name]
             layer = len(slab.sample.layers)
@@ -129,7 +129,7 @@ def before_backing(of: Sequence[Channel]) -> Change:
     return apply
 
 
-def _left(case: Case, name: str) -> float:
+def _left(case: RecordedCases, name: str) -> float:
     """Return the mass at the end of a test over the initial one, 0 where it is not recorded."""
     for signal in case.signals(name):
         quantity = case.experiments[name].quantity(signal)
@@ -141,13 +141,13 @@ def _left(case: Case, name: str) -> float:
 def swapped(one: str, other: str, signals: Sequence[str]) -> Change:
     """Return the exchange of the records of two experiments."""
 
-    def apply(case: Case) -> Case:
+    def apply(case: RecordedCases) -> RecordedCases:
         frames: dict[Channel, pd.DataFrame] = dict(case.frames)
         for signal in signals:
             frames[one, signal], frames[other, signal] = (
                 case.frames[other, signal],
                 case.frames[one, signal],
             )
-        return Case(case.experiments, frames)
+        return RecordedCases(case.experiments, frames)
 
     return apply

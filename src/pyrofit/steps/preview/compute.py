@@ -19,15 +19,15 @@ from pyrofit.steps.preview.fit import nearest
 from pyrofit.steps.preview.reach import (
     NOISE,
     OUTSIDE,
-    Case,
     Channel,
     Curves,
     Reached,
+    RecordedCases,
     all_reached,
     case_of,
-    simulate,
+    simulate_all,
 )
-from pyrofit.steps.preview.sets import Sets, draw
+from pyrofit.steps.preview.sets import Sets, draw_sets
 
 SETS = 300
 """Sets within the limits."""
@@ -51,7 +51,7 @@ GAP = 10
 class Preview:
     """The findings, and the band of every record."""
 
-    found: record.Found
+    found: record.Preview
     bands: pd.DataFrame
 
 
@@ -91,7 +91,7 @@ def preview(study: Study, measurements: Measurements, count: int = SETS) -> Prev
         Number of sets.
     """
     every = case_of(study, measurements)
-    sets = draw(study, study.parameters, count)
+    sets = draw_sets(study, study.parameters, count)
     simulated = all_simulated(study, every, sets)
     unfinished = _unfinished(simulated)
     case = every.of([name for name in every.experiments if unfinished.get(name, 0) < count])
@@ -105,11 +105,11 @@ def preview(study: Study, measurements: Measurements, count: int = SETS) -> Prev
     suspected = suspects(shown, left)
     mostly = [channel for channel, one in reached.items() if one.share_outside > MOSTLY]
     causes = likely(study, alone, sets, suspected, mostly, before) if suspected else []
-    found = record.Found(
+    found = record.Preview(
         sets=count,
         unfinished=unfinished,
         windows=[w for c, one in reached.items() for w in windows(case, c, one)],
-        nearest=[record.Distance(experiment=e, signal=s, left=d) for (e, s), d in left.items()],
+        nearest=[record.NearestSet(experiment=e, signal=s, left=d) for (e, s), d in left.items()],
         far=is_far(left),
         causes=[
             record.Likely(
@@ -130,7 +130,7 @@ def preview(study: Study, measurements: Measurements, count: int = SETS) -> Prev
     return Preview(found, _bands(case, curves, reached))
 
 
-def all_simulated(study: Study, case: Case, sets: Sets) -> Curves:
+def all_simulated(study: Study, case: RecordedCases, sets: Sets) -> Curves:
     """Return the curves of all sets; of a further repeat within the band those of a few sets.
 
     The band of all sets holds that of a few. So a repeat that lies outside for a few, or whose
@@ -143,10 +143,10 @@ def all_simulated(study: Study, case: Case, sets: Sets) -> Curves:
     """
     first = case.without_repeats({})
     further = case.of(case.experiments.keys() - first.experiments.keys())
-    few = simulate(study, further, sets.first(OF_REPEATS))
+    few = simulate_all(study, further, sets.first(OF_REPEATS))
     outside = {name for (name, _), one in all_reached(further, few).items() if one.outside > 0.0}
     again = further.of(outside | _unfinished(few).keys())
-    found = {**few, **simulate(study, first, sets), **simulate(study, again, sets)}
+    found = {**few, **simulate_all(study, first, sets), **simulate_all(study, again, sets)}
     return {channel: found[channel] for channel in case.frames}
 
 
@@ -155,14 +155,14 @@ def _unfinished(curves: Curves) -> dict[str, int]:
     return {name: count for name, count in failed.items() if count}
 
 
-def abscissa(case: Case, channel: Channel) -> FloatArray:
+def abscissa(case: RecordedCases, channel: Channel) -> FloatArray:
     """Return the temperatures [K] of a record against them, else its times [s]."""
     name, signal = channel
     heated = case.experiments[name].quantity(signal).against_temperature
     return case.frames[channel]["temperature_K" if heated else "time_s"].to_numpy(float)
 
 
-def windows(case: Case, channel: Channel, one: Reached) -> list[record.Window]:
+def windows(case: RecordedCases, channel: Channel, one: Reached) -> list[record.Window]:
     """Return the windows in which a record lies outside; none if it does so by little.
 
     Parameters
@@ -208,7 +208,9 @@ def _stretches(side: FloatArray) -> list[tuple[int, int]]:
     return found
 
 
-def unmoved(study: Study, case: Case, sets: Sets, reached: Mapping[Channel, Reached]) -> list[str]:
+def unmoved(
+    study: Study, case: RecordedCases, sets: Sets, reached: Mapping[Channel, Reached]
+) -> list[str]:
     """Return the parameters that move no signal by more than its noise, from limit to limit.
 
     Such a parameter cannot be estimated from these data.
@@ -230,9 +232,11 @@ def unmoved(study: Study, case: Case, sets: Sets, reached: Mapping[Channel, Reac
     return found
 
 
-def _moves(study: Study, case: Case, ends: Sets, reached: Mapping[Channel, Reached]) -> bool:
+def _moves(
+    study: Study, case: RecordedCases, ends: Sets, reached: Mapping[Channel, Reached]
+) -> bool:
     """Tell whether a parameter moves a signal by more than its noise."""
-    for channel, both in simulate(study, case, ends).items():
+    for channel, both in simulate_all(study, case, ends).items():
         lower, upper = np.split(both, 2)
         noise = case.frames[channel][NOISE].to_numpy(float)
         if np.any(np.abs(upper - lower) > np.maximum(noise, FELT * reached[channel].scale)):
@@ -240,7 +244,7 @@ def _moves(study: Study, case: Case, ends: Sets, reached: Mapping[Channel, Reach
     return False
 
 
-def _bands(case: Case, curves: Curves, reached: Mapping[Channel, Reached]) -> pd.DataFrame:
+def _bands(case: RecordedCases, curves: Curves, reached: Mapping[Channel, Reached]) -> pd.DataFrame:
     """Return measured values and bands, SI units: all sets, and the middle half of them."""
     parts = []
     for channel, one in reached.items():

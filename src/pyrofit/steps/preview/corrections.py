@@ -21,7 +21,7 @@ from pyrofit.steps.preview.changes import (
     swapped,
     without_baselines,
 )
-from pyrofit.steps.preview.reach import Case, Channel
+from pyrofit.steps.preview.reach import Channel, RecordedCases
 
 TEMPERATURE, FLUX, THICKNESS = "unit of temperature", "flux", "thickness"
 CLOCK, RATE, SWAPPED = "clock", "heating rate", "swapped files"
@@ -52,7 +52,7 @@ USUAL_K = (250.0, 450.0)
 
 
 @dataclass(frozen=True, eq=False)
-class Correction:
+class LikelyCause:
     """A correction of some experiments, and what it means.
 
     Parameters
@@ -73,9 +73,9 @@ class Correction:
     change: Change
 
 
-def corrections(
-    case: Case, outside: Sequence[Channel], mostly: Collection[Channel]
-) -> Iterator[Correction]:
+def possible_corrections(
+    case: RecordedCases, outside: Sequence[Channel], mostly: Collection[Channel]
+) -> Iterator[LikelyCause]:
     """Yield the corrections that may bring records inside: of each experiment, then of several.
 
     Parameters
@@ -98,8 +98,8 @@ def corrections(
 
 
 def _of_one(
-    case: Case, name: str, outside: Sequence[str], mostly: Collection[Channel]
-) -> Iterator[Correction]:
+    case: RecordedCases, name: str, outside: Sequence[str], mostly: Collection[Channel]
+) -> Iterator[LikelyCause]:
     experiment = case.experiments[name]
     yield from _temperatures(case, name, outside)
     if isinstance(experiment, SlabExperiment):
@@ -112,14 +112,14 @@ def _of_one(
     yield from _samples(case, name, outside, mostly)
 
 
-def _temperatures(case: Case, name: str, outside: Sequence[str]) -> Iterator[Correction]:
+def _temperatures(case: RecordedCases, name: str, outside: Sequence[str]) -> Iterator[LikelyCause]:
     for signal in outside:
         quantity = case.experiments[name].quantity(signal)
         column = quantity.column if quantity.is_temperature else "temperature_K"
         if column not in case.frames[name, signal]:
             continue
         for words, unit in _UNITS.items():
-            yield Correction(
+            yield LikelyCause(
                 TEMPERATURE,
                 (name,),
                 f"the {quantity.title} of {name}: the temperatures are {words}",
@@ -134,9 +134,9 @@ _UNITS: dict[str, Callable[[Any], Any]] = {
 }
 
 
-def _fluxes(name: str) -> Iterator[Correction]:
+def _fluxes(name: str) -> Iterator[LikelyCause]:
     for factor in TENS:
-        yield Correction(
+        yield LikelyCause(
             FLUX,
             (name,),
             f"the flux of {name} is {_off(factor)}",
@@ -144,9 +144,9 @@ def _fluxes(name: str) -> Iterator[Correction]:
         )
 
 
-def _thicknesses(name: str) -> Iterator[Correction]:
+def _thicknesses(name: str) -> Iterator[LikelyCause]:
     for factor in TENS:
-        yield Correction(
+        yield LikelyCause(
             THICKNESS,
             (name,),
             f"the thickness of {name} is {_off(factor)}",
@@ -154,13 +154,13 @@ def _thicknesses(name: str) -> Iterator[Correction]:
         )
 
 
-def _surroundings(experiment: SlabExperiment, name: str) -> Iterator[Correction]:
+def _surroundings(experiment: SlabExperiment, name: str) -> Iterator[LikelyCause]:
     for place in ("front", "back"):
         side = getattr(experiment, place)
         for key in ("gas_temperature_K", "wall_temperature_K"):
             given = getattr(side, key, None)
             if isinstance(given, float) and not USUAL_K[0] <= given <= USUAL_K[1]:
-                yield Correction(
+                yield LikelyCause(
                     SURROUNDINGS,
                     (name,),
                     f"{place}.{key} of {name} is {given:g} K, not that of a room",
@@ -168,13 +168,13 @@ def _surroundings(experiment: SlabExperiment, name: str) -> Iterator[Correction]
                 )
 
 
-def _clocks(case: Case, name: str) -> Iterator[Correction]:
+def _clocks(case: RecordedCases, name: str) -> Iterator[LikelyCause]:
     signals = case.signals(name)
     if isinstance(case.experiments[name], HeatedExperiment):
         return
     for factor in MINUTES:
         given, read = ("minutes", "seconds") if factor > 1.0 else ("seconds", "minutes")
-        yield Correction(
+        yield LikelyCause(
             CLOCK,
             (name,),
             f"the times of {name} are in {given}, and were read as {read}",
@@ -182,7 +182,7 @@ def _clocks(case: Case, name: str) -> Iterator[Correction]:
         )
     for shift in SHIFTS_S:
         late = "early" if shift > 0.0 else "late"
-        yield Correction(
+        yield LikelyCause(
             CLOCK,
             (name,),
             f"the clock of {name} is about {abs(shift):g} s {late}",
@@ -190,14 +190,14 @@ def _clocks(case: Case, name: str) -> Iterator[Correction]:
         )
 
 
-def _rates(case: Case, name: str) -> Iterator[Correction]:
+def _rates(case: RecordedCases, name: str) -> Iterator[LikelyCause]:
     experiment = case.experiments[name]
     assert isinstance(experiment, HeatedExperiment)
     given = experiment.heating_rate_K_min
     others = {e.heating_rate_K_min for e in case.experiments.values() if _is_heated(e)}  # type: ignore[attr-defined]
     rates = dict.fromkeys([given * f for f in (*MINUTES, *TENS)] + sorted(others - {given}))
     for rate in rates:
-        yield Correction(
+        yield LikelyCause(
             RATE,
             (name,),
             f"the heating rate of {name} is {rate:.3g} K/min, not {given:g} K/min",
@@ -210,8 +210,8 @@ def _is_heated(experiment: Experiment) -> bool:
 
 
 def _samples(
-    case: Case, name: str, outside: Sequence[str], mostly: Collection[Channel]
-) -> Iterator[Correction]:
+    case: RecordedCases, name: str, outside: Sequence[str], mostly: Collection[Channel]
+) -> Iterator[LikelyCause]:
     experiment = case.experiments[name]
     for signal in outside:
         quantity = experiment.quantity(signal)
@@ -221,7 +221,7 @@ def _samples(
         for factor in FACTORS:
             if not 0.1 < factor < 10.0 and (name, signal) not in mostly:
                 continue
-            yield Correction(
+            yield LikelyCause(
                 SAMPLE,
                 (name,),
                 f"the {quantity.title} of {name} is {_off(factor)}: area or mass "
@@ -230,7 +230,7 @@ def _samples(
             )
 
 
-def _baselines(case: Case, outside: Sequence[Channel]) -> Iterator[Correction]:
+def _baselines(case: RecordedCases, outside: Sequence[Channel]) -> Iterator[LikelyCause]:
     """Yield the baseline of an instrument, of all heat flows for which the study gives none."""
     of = [
         (name, signal)
@@ -241,7 +241,7 @@ def _baselines(case: Case, outside: Sequence[Channel]) -> Iterator[Correction]:
     if not of:
         return
     names = tuple(dict.fromkeys(name for name, _ in of))
-    yield Correction(
+    yield LikelyCause(
         BASELINE,
         names,
         f"the heat flow of {listed(names)} holds a baseline of the instrument. Subtract it, or "
@@ -250,14 +250,14 @@ def _baselines(case: Case, outside: Sequence[Channel]) -> Iterator[Correction]:
     )
 
 
-def _places(case: Case, outside: Sequence[Channel]) -> Iterator[Correction]:
+def _places(case: RecordedCases, outside: Sequence[Channel]) -> Iterator[LikelyCause]:
     """Yield that thermocouples stood between samples and what is behind them, in all tests."""
     of = [(e, signal) for e, signal in case.frames if _is_behind(case.experiments[e], signal)]
     if not set(of) & set(outside):
         return
     names = tuple(dict.fromkeys(name for name, _ in of))
     behind = case.experiments[of[0][0]].quantity(of[0][1])
-    yield Correction(
+    yield LikelyCause(
         PLACE,
         names,
         f"the {behind.title} of {listed(names)} is that between the sample and the backing. Its "
@@ -274,7 +274,7 @@ def _is_behind(experiment: Experiment, signal: str) -> bool:
     return experiment.quantity(signal).before_backing != ""
 
 
-def _swaps(case: Case, names: Sequence[str]) -> Iterator[Correction]:
+def _swaps(case: RecordedCases, names: Sequence[str]) -> Iterator[LikelyCause]:
     for one, other in combinations(case.experiments, 2):
         if one not in names and other not in names:
             continue
@@ -289,7 +289,7 @@ def _swaps(case: Case, names: Sequence[str]) -> Iterator[Correction]:
                 if signals == shared
                 else f" of the {case.experiments[one].quantity(signals[0]).title}"
             )
-            yield Correction(
+            yield LikelyCause(
                 SWAPPED,
                 (one, other),
                 f"the files{of} of {one} and {other} are swapped",

@@ -9,10 +9,10 @@ from pyrofit.quantities.base import Quantity
 from pyrofit.quantities.units import ICE_POINT_K
 from pyrofit.results.files import Results, read_csv
 from pyrofit.show import style
-from pyrofit.show.curves import label_of
+from pyrofit.show.curves import label_of_axis
 from pyrofit.show.drawn import Axes, Canvas, Line2D, Patch
 from pyrofit.show.units import shown
-from pyrofit.steps.preview.record import BANDS, Found, Window
+from pyrofit.steps.preview.record import BANDS, Preview, Window
 
 ALL, HALF = "0.86", "0.68"
 """Greys of the band of all sets, and of the middle half of them."""
@@ -20,8 +20,8 @@ OUTSIDE = style.ESTIMATES
 """Colour of data outside, which have another marker as well."""
 
 
-def draw_all(
-    study: Study, bands: pd.DataFrame, found: Found, results: Results, folder: str
+def draw_experiments(
+    study: Study, bands: pd.DataFrame, found: Preview, results: Results, folder: str
 ) -> None:
     """Write ``<folder>/<experiment>.svg`` and ``.png`` of every experiment.
 
@@ -38,7 +38,7 @@ def draw_all(
     """
     for name, of in bands.groupby("experiment", sort=False):
         with style.style():
-            style.save(draw(study, str(name), of, found), results, str(name), folder)
+            style.save(draw_experiment(study, str(name), of, found), results, str(name), folder)
 
 
 def read_bands(results: Results) -> pd.DataFrame:
@@ -52,7 +52,7 @@ def read_bands(results: Results) -> pd.DataFrame:
     return read_csv(results.of_step("preview", BANDS))
 
 
-def draw(study: Study, name: str, bands: pd.DataFrame, found: Found) -> Canvas:
+def draw_experiment(study: Study, name: str, bands: pd.DataFrame, found: Preview) -> Canvas:
     """Draw the records of an experiment before the band of all sets.
 
     Parameters
@@ -98,7 +98,7 @@ def _panel(
     off = np.any(inside, axis=0) if inside else np.zeros(len(frame), dtype=bool)
     ax.plot(at[off], value[off], color=OUTSIDE, linestyle="none", marker="x", markersize=4.0)
     ax.set_xlabel("temperature [°C]" if quantity.against_temperature else "time [s]")
-    ax.set_ylabel(label_of(study, name, signal))
+    ax.set_ylabel(label_of_axis(study, name, signal))
 
 
 def _abscissa(quantity: Quantity, at: pd.Series) -> np.ndarray:

@@ -8,7 +8,14 @@ import numpy as np
 from pyrofit.config import Study
 from pyrofit.estimate.bounded_least_squares import Fit, minimise
 from pyrofit.solver.arrays import FloatArray
-from pyrofit.steps.preview.reach import Case, Channel, Curves, Reached, all_reached, simulate
+from pyrofit.steps.preview.reach import (
+    Channel,
+    Curves,
+    Reached,
+    RecordedCases,
+    all_reached,
+    simulate_all,
+)
 from pyrofit.steps.preview.sets import Sets
 
 STEP = 0.01
@@ -38,14 +45,14 @@ class Nearest:
     left: Mapping[Channel, float]
 
 
-def misfits(found: Mapping[Channel, Reached]) -> FloatArray:
+def relative_misfits(found: Mapping[Channel, Reached]) -> FloatArray:
     """Return the root mean square differences over the ranges, shape (sets, records)."""
     return np.column_stack([one.nearest for one in found.values()])
 
 
 def nearest(
     study: Study,
-    case: Case,
+    case: RecordedCases,
     sets: Sets,
     curves: Curves,
     suffices: Callable[[Mapping[Channel, float]], bool] = lambda left: False,
@@ -67,10 +74,10 @@ def nearest(
     if not (sets.names and found):
         return Nearest(np.empty(0), {c: float(one.nearest.min()) for c, one in found.items()})
     scales = {channel: one.scale for channel, one in found.items()}
-    best = np.argsort(np.mean(misfits(found) ** 2, axis=1), kind="stable")[:STARTS]
+    best = np.argsort(np.mean(relative_misfits(found) ** 2, axis=1), kind="stable")[:STARTS]
 
     def rows(unit: FloatArray) -> FloatArray:
-        made = simulate(study, case, replace(sets, unit=unit))
+        made = simulate_all(study, case, replace(sets, unit=unit))
         parts = []
         for channel, one in found.items():
             off = (made[channel] - one.value) / scales[channel] / np.sqrt(one.value.size)

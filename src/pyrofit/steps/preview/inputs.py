@@ -9,13 +9,13 @@ from pyrofit.steps.preview import record
 def slice_of(study: Study) -> dependencies.Slice:
     """Return experiments, material, limits and known values."""
     return {
-        "experiments": dependencies.measured(study),
+        "experiments": dependencies.measured_slice(study),
         "material": study.material_with(study.imp.kinetics).model_dump(),
         "heated": study.material.model_dump(),
         "parameters": {n: p.model_dump(exclude={"label"}) for n, p in study.parameters.items()},
         "accuracy": study.accuracy.model_dump(),
         "seed": study.seed,
-        **dependencies.known(study, study.parameters),
+        **dependencies.known_slice(study, study.parameters),
     }
 
 

@@ -35,7 +35,7 @@ OF_BAND = 0.10
 
 
 @dataclass(frozen=True, eq=False)
-class Case:
+class RecordedCases:
     """Experiments as they are described, and their records as they were read, SI units."""
 
     experiments: Mapping[str, Experiment]
@@ -49,7 +49,7 @@ class Case:
         """Return the signals of an experiment."""
         return [signal for experiment, signal in self.frames if experiment == name]
 
-    def without_repeats(self, outside: Mapping[Channel, float]) -> "Case":
+    def without_repeats(self, outside: Mapping[Channel, float]) -> "RecordedCases":
         """Return the case with one repeat of each test: that which lies outside most, or the first.
 
         ``outside`` is the mean distance of each record outside, over its range.
@@ -61,38 +61,38 @@ class Case:
             tests.setdefault(test, {})[name] = most
         return self.of({max(of, key=of.__getitem__) for of in tests.values()})
 
-    def of(self, names: Collection[str]) -> "Case":
+    def of(self, names: Collection[str]) -> "RecordedCases":
         """Return some experiments and their records alone."""
-        return Case(
+        return RecordedCases(
             {n: e for n, e in self.experiments.items() if n in names},
             {c: f for c, f in self.frames.items() if c[0] in names},
         )
 
-    def with_experiment(self, name: str, experiment: Experiment) -> "Case":
+    def with_experiment(self, name: str, experiment: Experiment) -> "RecordedCases":
         """Return the case with another description of an experiment."""
-        return Case({**self.experiments, name: experiment}, self.frames)
+        return RecordedCases({**self.experiments, name: experiment}, self.frames)
 
-    def with_frame(self, channel: Channel, frame: pd.DataFrame) -> "Case":
+    def with_frame(self, channel: Channel, frame: pd.DataFrame) -> "RecordedCases":
         """Return the case with another record."""
-        return Case(self.experiments, {**self.frames, channel: frame})
+        return RecordedCases(self.experiments, {**self.frames, channel: frame})
 
 
 Curves = Mapping[Channel, FloatArray]
 """Simulated curves of all sets, shape (sets, points); no numbers where a run did not finish."""
 
 
-def case_of(study: Study, measurements: Measurements) -> Case:
+def case_of(study: Study, measurements: Measurements) -> RecordedCases:
     """Return all experiments of a study that pyrofit simulates itself, with thinned records.
 
     An external program would take too long; its experiments are left out.
     """
     programs = externals(study)
     frames = {
-        channel: thinned(frame).assign(**{NOISE: noise_of(study, channel, frame)})
+        channel: thinned(frame).assign(**{NOISE: record_noise(study, channel, frame)})
         for channel, frame in measurements.items()
         if channel[0] not in programs
     }
-    return Case({n: e for n, e in study.experiments.items() if n not in programs}, frames)
+    return RecordedCases({n: e for n, e in study.experiments.items() if n not in programs}, frames)
 
 
 def thinned(frame: pd.DataFrame) -> pd.DataFrame:
@@ -102,7 +102,7 @@ def thinned(frame: pd.DataFrame) -> pd.DataFrame:
     return frame.iloc[picked].reset_index(drop=True)
 
 
-def noise_of(study: Study, channel: Channel, frame: pd.DataFrame) -> float:
+def record_noise(study: Study, channel: Channel, frame: pd.DataFrame) -> float:
     """Return the noise of a record: the scatter of its points, or the stated sd if that is larger.
 
     Parameters
@@ -124,8 +124,8 @@ def noise_of(study: Study, channel: Channel, frame: pd.DataFrame) -> float:
     return found
 
 
-def simulate(
-    study: Study, case: Case, sets: Sets, known: tuple[Case, Curves] | None = None
+def simulate_all(
+    study: Study, case: RecordedCases, sets: Sets, known: tuple[RecordedCases, Curves] | None = None
 ) -> dict[Channel, FloatArray]:
     """Return the curves of all sets at the points of all records.
 
@@ -150,7 +150,7 @@ def simulate(
     return found
 
 
-def _alike(one: Case, other: Case, name: str) -> bool:
+def _alike(one: RecordedCases, other: RecordedCases, name: str) -> bool:
     """Tell whether an experiment of two cases has the same curves at the same points."""
     return one.experiments[name] is other.experiments[name] and all(
         np.array_equal(one.frames[name, s][c], other.frames[name, s][c])
@@ -160,7 +160,9 @@ def _alike(one: Case, other: Case, name: str) -> bool:
     )
 
 
-def _simulated(study: Study, case: Case, sets: Sets, name: str) -> dict[Channel, FloatArray]:
+def _simulated(
+    study: Study, case: RecordedCases, sets: Sets, name: str
+) -> dict[Channel, FloatArray]:
     experiment = case.experiments[name]
     kind = kind_of(experiment)
     asked: dict[str, Request] = {}
@@ -225,7 +227,7 @@ class Reached:
         return float(np.mean(np.abs(self.beyond))) / self.scale
 
 
-def all_reached(case: Case, curves: Curves) -> dict[Channel, Reached]:
+def all_reached(case: RecordedCases, curves: Curves) -> dict[Channel, Reached]:
     """Return every record of a case beside the band of its curves."""
     found = {}
     for (name, signal), frame in case.frames.items():

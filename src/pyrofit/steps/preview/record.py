@@ -21,7 +21,7 @@ class Window(Record):
     share: float = Field(description="the same over the range of the record [-]")
 
 
-class Distance(Record):
+class NearestSet(Record):
     """A record and the set that comes nearest to all records at once."""
 
     experiment: str = Field(description="name of the experiment")
@@ -47,26 +47,26 @@ class HeldUp(Record):
     temperature_K: float = Field(description="where its rise is slowest [K]")
 
 
-class Found(Record):
+class Preview(Record):
     """What the data are beside all that the limits allow."""
 
     sets: int = Field(description="number of sets")
     unfinished: dict[str, int] = Field(description="runs that did not finish, by experiment")
     windows: list[Window] = Field(description="where records lie outside")
-    nearest: list[Distance] = Field(description="the set nearest to all records, of each record")
+    nearest: list[NearestSet] = Field(description="the set nearest to all records, of each record")
     far: bool = Field(description="no set comes near all records at once")
     causes: list[Likely] = Field(description="likely causes, the likeliest first")
     unmoved: list[str] = Field(description="parameters that move no signal beyond its noise")
     held_up: list[HeldUp] = Field([], description="temperatures that show water without a model")
 
 
-def write(results: Results, found: Found) -> None:
+def write(results: Results, found: Preview) -> None:
     """Write the findings; temperatures that are held up only where there are any."""
     left_out = set() if found.held_up else {"held_up"}
     write_json(results.of_step("preview", FOUND), found.model_dump(exclude=left_out))
 
 
-def read(results: Results) -> Found:
+def read(results: Results) -> Preview:
     """Return the findings.
 
     Raises
@@ -74,4 +74,4 @@ def read(results: Results) -> Found:
     DataError
         They are missing or broken.
     """
-    return read_record(results.of_step("preview", FOUND), Found)
+    return read_record(results.of_step("preview", FOUND), Preview)

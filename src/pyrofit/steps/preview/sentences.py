@@ -9,7 +9,7 @@ from pyrofit.results.files import Results
 from pyrofit.show.text import listed, several
 from pyrofit.show.water import lacking_water
 from pyrofit.steps.preview import record
-from pyrofit.steps.preview.record import Found, Window
+from pyrofit.steps.preview.record import Preview, Window
 
 LEAST_LEFT = 0.06
 """Difference from the nearest set, over the range, from which on a record is named."""
@@ -17,10 +17,10 @@ LEAST_LEFT = 0.06
 
 def sentences(study: Study, results: Results) -> list[str]:
     """Return the sentences on the data beside all that the limits allow."""
-    return list(said(study, record.read(results)))
+    return list(sentences_on(study, record.read(results)))
 
 
-def said(study: Study, found: Found) -> Iterator[str]:
+def sentences_on(study: Study, found: Preview) -> Iterator[str]:
     """Yield the sentences on what was found."""
     yield from _unfinished(found)
     if not found.nearest:
@@ -45,7 +45,7 @@ def said(study: Study, found: Found) -> Iterator[str]:
         )
 
 
-def _unfinished(found: Found) -> Iterator[str]:
+def _unfinished(found: Preview) -> Iterator[str]:
     for name, count in found.unfinished.items():
         left_out = "; its data are not compared" if count == found.sets else ""
         yield f"{name}: {count} of {found.sets} sets within the limits do not finish{left_out}."
@@ -57,26 +57,26 @@ def _window(study: Study, window: Window) -> str:
     side = "above" if window.above else "below"
     return (
         f"{window.experiment}, {experiment.words(window.signal)}: the data lie {side} all sets "
-        f"from {span(quantity, window.begins, window.ends)}, by up to "
-        f"{size(quantity, window.largest)} ({100.0 * window.share:.0f} % of the range)."
+        f"from {window_span(quantity, window.begins, window.ends)}, by up to "
+        f"{size_words(quantity, window.largest)} ({100.0 * window.share:.0f} % of the range)."
     )
 
 
-def span(quantity: Quantity, begins: float, ends: float) -> str:
+def window_span(quantity: Quantity, begins: float, ends: float) -> str:
     """Return a window in words: times, or temperatures of a heated sample."""
     if quantity.against_temperature:
         return f"{begins - ICE_POINT_K:.0f} to {ends - ICE_POINT_K:.0f} °C"
     return f"{begins:.0f} to {ends:.0f} s"
 
 
-def size(quantity: Quantity, value: float) -> str:
+def size_words(quantity: Quantity, value: float) -> str:
     """Return a difference of a quantity with its unit."""
     shown = quantity.shown
     unit = "K" if quantity.is_temperature else shown.unit.replace("–", "")
     return f"{shown.factor * value:.3g} {unit}".rstrip()
 
 
-def _far(study: Study, found: Found) -> Iterator[str]:
+def _far(study: Study, found: Preview) -> Iterator[str]:
     worst = sorted(found.nearest, key=lambda one: -one.left)
     parts = [
         f"{one.experiment}, {study.experiments[one.experiment].words(one.signal)} "
@@ -90,7 +90,7 @@ def _far(study: Study, found: Found) -> Iterator[str]:
     )
 
 
-def _causes(found: Found) -> Iterator[str]:
+def _causes(found: Preview) -> Iterator[str]:
     if not found.causes:
         yield (
             "No single error that was tried explains this. Limits of several parameters may be "
@@ -104,7 +104,7 @@ def _causes(found: Found) -> Iterator[str]:
         )
 
 
-def _repeats(study: Study, found: Found) -> Iterator[str]:
+def _repeats(study: Study, found: Preview) -> Iterator[str]:
     """Say which repeats lie outside beside the one that a cause names."""
     outside = dict.fromkeys(window.experiment for window in found.windows)
     named = dict.fromkeys(place for one in found.causes for place in one.places)

@@ -61,7 +61,7 @@ class Sets:
         return replace(self, unit=both)
 
 
-def draw(study: Study, names: Iterable[str], count: int) -> Sets:
+def draw_sets(study: Study, names: Iterable[str], count: int) -> Sets:
     """Return sets within the limits of parameters; those of known value stay near it.
 
     Parameters

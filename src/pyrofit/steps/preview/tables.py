@@ -6,7 +6,7 @@ from pyrofit.config import Study
 from pyrofit.results.files import Results
 from pyrofit.show.table import Table
 from pyrofit.steps.preview import record
-from pyrofit.steps.preview.sentences import size, span
+from pyrofit.steps.preview.sentences import size_words, window_span
 
 
 def outside(study: Study, results: Results) -> pd.DataFrame:
@@ -19,8 +19,8 @@ def outside(study: Study, results: Results) -> pd.DataFrame:
                 "experiment": window.experiment,
                 "signal": window.signal,
                 "side": "above" if window.above else "below",
-                "window": span(quantity, window.begins, window.ends),
-                "largest": size(quantity, window.largest),
+                "window": window_span(quantity, window.begins, window.ends),
+                "largest": size_words(quantity, window.largest),
                 "share_percent": 100.0 * window.share,
             }
         )
@@ -28,7 +28,7 @@ def outside(study: Study, results: Results) -> pd.DataFrame:
     return pd.DataFrame(rows, columns=columns)
 
 
-def causes(study: Study, results: Results) -> pd.DataFrame:
+def causes_table(study: Study, results: Results) -> pd.DataFrame:
     """List the likely causes, the likeliest first."""
     rows = [
         {
@@ -52,7 +52,7 @@ TABLES = {
     ),
     "causes": Table(
         place=70,
-        make=causes,
+        make=causes_table,
         title="Likely causes",
         note="Explained: part of the squared difference between data and nearest set that the "
         "correction takes away. Left: root mean square of the rest over the range.",

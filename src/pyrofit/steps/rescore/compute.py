@@ -16,7 +16,7 @@ from pyrofit.results import dependencies, searches
 from pyrofit.results.files import Results, write_csv
 from pyrofit.results.recorded import load
 from pyrofit.solver.arrays import Status
-from pyrofit.stages.scorer import Scorer, scored, scorer_of
+from pyrofit.stages.scorer import Scorer, scored_sets, scorer_of
 from pyrofit.steps.rescore import record
 from pyrofit.steps.rescore.options import RescoreOptions
 from pyrofit.steps.rescore.record import Rescored
@@ -60,7 +60,7 @@ def run(study: Study, results: Results, tell: Tell, processes: int) -> None:
     scorer, more = scorer_of(study, results, measurements, measures)
     sets = stored.sets[list(scorer.problem.names)].to_numpy(float)
     names = [measure.name for measure in scorer.measures]
-    scores = pd.DataFrame(scored(scorer, sets, processes), columns=names)
+    scores = pd.DataFrame(scored_sets(scorer, sets, processes), columns=names)
     _write(study, results, scorer, stored, scores, [*left_out, *more])
 
 
@@ -117,7 +117,7 @@ def stored_sets(study: Study, results: Results, count: int | None) -> Stored:
             failed += len(history) - len(finished)
             found.append(finished.assign(cost_function=cost, repetition=number))
     sizes = [len(history) for history in found]
-    wanted = sizes if count is None else rescoring.shares(sizes, count)
+    wanted = sizes if count is None else rescoring.shares_of_histories(sizes, count)
     columns = ["cost_function", "repetition", "call", "cost", *study.imp.estimate]
     chosen = [
         history.iloc[np.sort(rescoring.strata(history["cost"].to_numpy(), share))]

@@ -10,12 +10,12 @@ from pyrofit.show.drawn import Canvas
 from pyrofit.show.figure import Figure
 from pyrofit.show.matrix import draw_matrix
 from pyrofit.steps.rescore import record
-from pyrofit.steps.rescore.facts import correlation, of_shown, shown
+from pyrofit.steps.rescore.facts import correlation_of_shown, of_shown, shown_by_rank
 
 
-def agreement(study: Study, results: Results) -> Canvas:
+def draw_agreement(study: Study, results: Results) -> Canvas:
     """Draw the rank correlation of the costs."""
-    return draw_matrix(correlation(study, results), "rank correlation [–]")
+    return draw_matrix(correlation_of_shown(study, results), "rank correlation [–]")
 
 
 def agreement_best(study: Study, results: Results) -> Canvas:
@@ -43,9 +43,9 @@ def regret(study: Study, results: Results) -> Canvas:
     return canvas
 
 
-def valleys(study: Study, results: Results) -> Canvas:
+def draw_valleys(study: Study, results: Results) -> Canvas:
     """Draw the range of each parameter over the best sets of every cost."""
-    measures = shown(record.read(study, results))
+    measures = shown_by_rank(record.read(study, results))
     names = list(study.imp.estimate)
     height = 14.0 + 4.2 * len(measures)
     canvas, axes = style.panels(len(names), 3, style.TWO_COLUMNS, height, sharey=True)
@@ -66,7 +66,7 @@ def valleys(study: Study, results: Results) -> Canvas:
 FIGURES = {
     "agreement": Figure(
         place=10,
-        make=agreement,
+        make=draw_agreement,
         title="How the costs agree in ranking the stored sets",
         caption="Spearman's rank correlation over the stored sets: 1 (dark red) means the same "
         "order, 0 (white) no relation, −1 (dark blue) the reverse order. Costs that rank all sets "
@@ -90,7 +90,7 @@ FIGURES = {
     ),
     "valleys": Figure(
         place=30,
-        make=valleys,
+        make=draw_valleys,
         title="Where the valleys of the costs lie",
         caption=f"Bars: range of each parameter over the best {100.0 * VALLEY:g} % of the stored "
         "sets of a cost. Marks: the set with its lowest value. With a long bar, the cost does not "

@@ -12,9 +12,9 @@ def slice_of(study: Study) -> dependencies.Slice:
     """Return all searches, the likelihood, and the code of all costs."""
     return {
         "searches": {cost: dependencies.imp(study, cost, "sceua") for cost in study.imp.costs},
-        "likelihood": dependencies.identify(study),
+        "likelihood": dependencies.identify_slice(study),
         "kinds": {name: code_digest("costs", name) for name in known_costs()},
-        **dependencies.collect(study),
+        **dependencies.collect_slice(study),
     }
 
 

@@ -10,7 +10,7 @@ from pyrofit.config import Study
 from pyrofit.results.files import Results
 from pyrofit.show.text import listed, several, span
 from pyrofit.steps.rescore import record
-from pyrofit.steps.rescore.facts import correlation, of_shown, shown
+from pyrofit.steps.rescore.facts import correlation_of_shown, of_shown, shown_by_rank
 from pyrofit.steps.rescore.record import OfMeasure, Rescored
 
 DRIFT = 1e-3
@@ -31,12 +31,12 @@ def sentences(study: Study, results: Results) -> list[str]:
     higher = record.matrix(results, record.EXCESS)
     return [
         _sample(found),
-        *alike_costs(correlation(study, results)),
+        *alike_costs(correlation_of_shown(study, results)),
         *_among_best(_part(record.matrix(results, record.AMONG_BEST), list(study.imp.costs))),
         *_undecided(found),
         *own_costs(_part(higher, list(study.imp.costs))),
         *regret_of(_part(better, [name for name in better if name not in undecided(found)])),
-        *_valleys(shown(found), found),
+        *_valleys(shown_by_rank(found), found),
         *_same(found),
         *_warnings(found),
     ]
@@ -93,7 +93,7 @@ def _among_best(matrix: pd.DataFrame) -> list[str]:
 def undecided(found: Rescored) -> dict[str, float]:
     """Return the costs with very many best sets that tie, and the share of these [%]."""
     scored = found.sampled - found.unfinished
-    parts = {m.name: m.valley_sets / scored for m in shown(found) if m.tells_apart}
+    parts = {m.name: m.valley_sets / scored for m in shown_by_rank(found) if m.tells_apart}
     return {name: 100.0 * part for name, part in parts.items() if part > UNDECIDED}
 
 

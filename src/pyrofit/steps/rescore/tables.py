@@ -7,10 +7,10 @@ from pyrofit.config import Study
 from pyrofit.results.files import Results
 from pyrofit.show.table import Row, Table
 from pyrofit.steps.rescore import record
-from pyrofit.steps.rescore.facts import in_units, of_shown
+from pyrofit.steps.rescore.facts import in_study_units, of_shown
 
 
-def best(study: Study, results: Results) -> pd.DataFrame:
+def best_table(study: Study, results: Results) -> pd.DataFrame:
     """List the costs, each with its best stored set."""
     found = record.read(study, results)
     same = {name: group[0] for group in found.same for name in group[1:]}
@@ -18,7 +18,7 @@ def best(study: Study, results: Results) -> pd.DataFrame:
 
 
 def _row(study: Study, measure: record.OfMeasure, same: dict[str, str]) -> Row:
-    values = in_units(study, measure.parameters.items())
+    values = in_study_units(study, measure.parameters.items())
     return {
         "cost": measure.name,
         "what": measure.words,
@@ -29,19 +29,19 @@ def _row(study: Study, measure: record.OfMeasure, same: dict[str, str]) -> Row:
     }
 
 
-def excess(study: Study, results: Results) -> pd.DataFrame:
+def excess_table(study: Study, results: Results) -> pd.DataFrame:
     """List how much higher the best set of each cost is under the others, in per cent."""
     table = of_shown(record.read(study, results), record.matrix(results, record.EXCESS))
     return (100.0 * table).rename_axis("best_of").reset_index()
 
 
-def correlations(study: Study, results: Results) -> pd.DataFrame:
+def rank_correlation_table(study: Study, results: Results) -> pd.DataFrame:
     """List Spearman's rank correlation of all costs."""
     table = record.matrix(results, record.CORRELATION)
     return of_shown(record.read(study, results), table).reset_index()
 
 
-def valleys(study: Study, results: Results) -> pd.DataFrame:
+def valleys_table(study: Study, results: Results) -> pd.DataFrame:
     """List where the valley of each cost lies, per cent of the search range."""
     found = record.read(study, results)
     rows = [
@@ -62,7 +62,7 @@ def valleys(study: Study, results: Results) -> pd.DataFrame:
 TABLES = {
     "best": Table(
         place=60,
-        make=best,
+        make=best_table,
         title="Best stored set of every cost",
         note="Lowest of all stored sets that were scored, whatever they were fitted with. 'Ranks "
         "as': the cost puts all sets in the same order as the one named.",
@@ -74,14 +74,14 @@ TABLES = {
     ),
     "rank_correlation": Table(
         place=70,
-        make=correlations,
+        make=rank_correlation_table,
         title="Rank correlation of the costs over the stored sets",
         note="Spearman's correlation. Costs that rank as another one are left out.",
         shown=False,
     ),
     "regret": Table(
         place=80,
-        make=excess,
+        make=excess_table,
         title="The stored set with the lowest value of one cost, under another cost",
         note="Excess over the lowest value of the cost in the column, in per cent of that value. "
         "Empty where that is 0.",
@@ -90,7 +90,7 @@ TABLES = {
     ),
     "valleys": Table(
         place=90,
-        make=valleys,
+        make=valleys_table,
         title="Where the valley of every cost lies",
         note=f"Range of each parameter over the best {100.0 * VALLEY:g} % of the sets of a cost, "
         "and the set with its lowest value. Both in per cent of the search range.",

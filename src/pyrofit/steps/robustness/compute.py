@@ -33,7 +33,7 @@ Channel = tuple[str, str]
 
 
 @dataclass(frozen=True)
-class Twin:
+class NoisyTwin:
     """Curves at the truth, SI units, with the noise of the measurement.
 
     Parameters
@@ -89,7 +89,7 @@ def plan(study: Study) -> Iterator[tuple[str, float, int]]:
                 yield kind, level, draw
 
 
-def _twin(study: Study, results: Results) -> Twin:
+def _twin(study: Study, results: Results) -> NoisyTwin:
     measured = load(study, results)
     truth = true_set(study, results)
     channels = {(t.experiment, t.signal) for terms in study.imp.costs.values() for t in terms}
@@ -108,7 +108,7 @@ def _twin(study: Study, results: Results) -> Twin:
             target_of(frame, quantity), quantity, described.uncertainty_sds, described.timing_s
         )
         sd[name, signal] = noise.sd
-    return Twin(truth, clean, sd)
+    return NoisyTwin(truth, clean, sd)
 
 
 def _predicted_rates(study: Study) -> list[tuple[str, str]]:
@@ -121,7 +121,7 @@ def _predicted_rates(study: Study) -> list[tuple[str, str]]:
     ]
 
 
-def noisy(study: Study, twin: Twin, kind: str, level: float, draw: int) -> Measurements:
+def noisy(study: Study, twin: NoisyTwin, kind: str, level: float, draw: int) -> Measurements:
     """Return the series of a twin with noise and, perhaps, outliers.
 
     The noise is white. A stated uncertainty grows with it, but not with outliers.
@@ -167,7 +167,7 @@ def with_values(
     return frame.assign(**columns)
 
 
-def _held_out(study: Study, results: Results, twin: Twin) -> list[Problem]:
+def _held_out(study: Study, results: Results, twin: NoisyTwin) -> list[Problem]:
     """Return problems whose cost is the CV(RMSE) against the truth, where nothing is fitted."""
     fitted = {t.experiment for terms in study.imp.costs.values() for t in terms if t.weight}
     specs = [

@@ -10,7 +10,7 @@ from pyrofit.results.files import Results
 from pyrofit.show import style
 from pyrofit.show.drawn import Axes, Canvas
 from pyrofit.show.figure import Figure
-from pyrofit.steps.robustness.twins import NOISE, OUTLIERS, errors
+from pyrofit.steps.robustness.twins import NOISE, OUTLIERS, errors_of_twins
 
 _ASIDE = 0.14
 """Distance of the cost functions' marks at one level, in levels."""
@@ -22,9 +22,9 @@ _LABELS = {NOISE: "noise, multiple of the measurement's", OUTLIERS: "outliers [%
 _MARKERS = "oDs^vp"
 
 
-def robustness(study: Study, results: Results) -> Canvas:
+def draw_robustness(study: Study, results: Results) -> Canvas:
     """Draw the errors of parameters and predictions against noise and outliers."""
-    frame = errors(study, results)
+    frame = errors_of_twins(study, results)
     frame["prediction"] = 100.0 * frame["prediction_error"].astype(float)
     held_out = bool(frame["prediction"].notna().any())
     shown = [("error", "error of the recovered\nparameters [% of search range]")]
@@ -68,7 +68,7 @@ def _draw(ax: Axes, study: Study, frame: pd.DataFrame, column: str) -> None:
 
 FIGURE = Figure(
     place=10,
-    make=robustness,
+    make=draw_robustness,
     title="Twins of known truth",
     caption="Errors of the fits against how much noise (left) and how many outliers (right) "
     "the twins have; dots: one twin each, lines: their median. A cost function whose "

@@ -12,11 +12,11 @@ def slice_of(study: Study, cost: str) -> dependencies.Slice:
         "terms": [t.model_dump() for t in all_terms(study)],
         "cost": cost,
         "truth": study.synthetic.truth if study.synthetic else {},
-        "measured": dependencies.measured(study),
+        "measured": dependencies.measured_slice(study),
         "limits": {n: study.parameters[n].bounds_si for n in study.imp.estimate},
         "seed": study.seed,
-        **dependencies.known(study, study.imp.estimate),
-        **dependencies.validation(study),
+        **dependencies.known_slice(study, study.imp.estimate),
+        **dependencies.validation_slice(study),
     }
 
 

@@ -6,13 +6,13 @@ from pyrofit.analysis.cost_tests import SIGNIFICANT
 from pyrofit.config import Study
 from pyrofit.results.files import Results, read_csv
 from pyrofit.show.text import listed
-from pyrofit.steps.robustness.twins import errors, recovered
+from pyrofit.steps.robustness.twins import errors_of_twins, recovered
 
 
 def sentences(study: Study, results: Results) -> list[str]:
     """Return the sentences on the twins of known truth."""
     table = read_csv(results.of_step("robustness", "table.csv"))
-    found = errors(study, results)
+    found = errors_of_twins(study, results)
     kept = recovered(study, found)
     lost = [name for name in study.imp.estimate if name not in kept]
     said = []

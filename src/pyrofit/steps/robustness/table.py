@@ -9,10 +9,10 @@ from pyrofit.analysis import groups
 from pyrofit.config import Study
 from pyrofit.results.files import Results
 from pyrofit.show.table import Row, Table
-from pyrofit.steps.robustness.twins import NOISE, RECOVERED, errors
+from pyrofit.steps.robustness.twins import NOISE, RECOVERED, errors_of_twins
 
 
-def robustness(study: Study, results: Results) -> pd.DataFrame:
+def robustness_table(study: Study, results: Results) -> pd.DataFrame:
     """List the errors by disturbance and cost function.
 
     Returns
@@ -23,7 +23,7 @@ def robustness(study: Study, results: Results) -> pd.DataFrame:
         square in per cent of its limits. The p is Kruskal and Wallis's for errors of the cost
         functions at the same place, Holm-corrected for the number of levels.
     """
-    frame = errors(study, results)
+    frame = errors_of_twins(study, results)
     names = list(study.imp.estimate)
     rows: list[Row] = []
     for (kind, level, cost), part in frame.groupby(["kind", "level", "cost_function"], sort=False):
@@ -70,7 +70,7 @@ def _words(kind: Any, level: Any) -> str:
 
 TABLE = Table(
     place=60,
-    make=robustness,
+    make=robustness_table,
     title="Robustness of the cost functions on twins of known truth",
     note="Twins: curves of the model itself with white noise. Its standard deviation is "
     "that of the measurement times the number given. Some twins have outliers as "

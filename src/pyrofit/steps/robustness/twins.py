@@ -15,7 +15,7 @@ RECOVERED = 20.0
 """Largest root mean square error of a parameter that is recovered [% of its limits]."""
 
 
-def errors(study: Study, results: Results) -> pd.DataFrame:
+def errors_of_twins(study: Study, results: Results) -> pd.DataFrame:
     """Return the errors of all fitted twins: a row each, parameters in per cent of their limits.
 
     ``error``: root mean square over the parameters that are `recovered`.
@@ -60,5 +60,5 @@ def true_set(study: Study, results: Results) -> FloatArray:
     if study.synthetic is not None:
         truth = study.true_values()
         return np.array([truth[name] for name in study.imp.estimate])
-    summary = searches.summary(study, results)
+    summary = searches.best_of_repetitions(study, results)
     return summary[list(study.imp.estimate)].mean().to_numpy(float)

@@ -7,14 +7,14 @@ from pyrofit.logs import Tell
 from pyrofit.results import recorded
 from pyrofit.results.files import Results, write_csv, write_text
 from pyrofit.scheme.choice import Choice, choose_scheme
-from pyrofit.scheme.extended import extended_keys
-from pyrofit.scheme.fit import Setting
+from pyrofit.scheme.extended import scheme_keys
+from pyrofit.scheme.fit import SchemeSetting
 from pyrofit.scheme.masses import masses_of
 from pyrofit.scheme.records import records_of
-from pyrofit.scheme.settings import Settings
+from pyrofit.scheme.settings import SchemeSettings
 from pyrofit.stages.own_files import files_seen_from, seen_from
 from pyrofit.steps.scheme import record
-from pyrofit.steps.scheme.found import curves_of, found_of
+from pyrofit.steps.scheme.found import curves_of, scheme_found
 
 _COMMENT = """\
 The study with the reaction scheme that its thermogravimetric records support, at the fitted values.
@@ -33,25 +33,25 @@ def run(study: Study, results: Results, tell: Tell, processes: int) -> Choice:
     DataError
         A measurement is missing, or no scheme can be simulated within its limits.
     """
-    settings = Settings()
+    settings = SchemeSettings()
     masses = masses_of(study)
     measurements = {
         (name, signal): recorded.series(study, results, name, signal)
         for name, signal in (*masses.fitted, *masses.predicted)
     }
     records = tuple(records_of(study, measurements, settings.points))
-    found = choose_scheme(Setting(study, measurements, records, settings), tell)
+    found = choose_scheme(SchemeSetting(study, measurements, records, settings), tell)
     extended = results.of_step("scheme", record.EXTENDED)
     write(study, results, found, extended)
     write_csv(results.of_step("scheme", record.CURVES), curves_of(found))
-    record.write(results, found_of(found, settings))
+    record.write(results, scheme_found(found, settings))
     tell(f"{extended}: the study with the chosen scheme")
     return found
 
 
 def write(study: Study, results: Results, found: Choice, path: Path) -> None:
     """Write the study with the chosen scheme; it names the files of the study from there."""
-    keys = extended_keys(
+    keys = scheme_keys(
         study, found.chosen.fitted, dict(files_seen_from(study, results, path.parent))
     )
     if study.plugins:

@@ -6,13 +6,13 @@ import pandas as pd
 from pyrofit.config import Study
 from pyrofit.results.files import Results
 from pyrofit.show import style
-from pyrofit.show.drawn import Axes, Canvas, Look
+from pyrofit.show.drawn import Axes, Canvas, DrawStyle
 from pyrofit.show.figure import Figure
 from pyrofit.show.subjects.kinetics.drawing import rate_of, slope
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.steps.scheme import record
 
-LOOKS: dict[str, Look] = {
+LOOKS: dict[str, DrawStyle] = {
     "before": {"color": style.COLOURS[1], "linestyle": style.DASHES[1], "linewidth": 1.0},
     "after": {"color": style.COLOURS[0], "linestyle": "-", "linewidth": 1.0},
     "predicted": {"color": style.COLOURS[2], "linestyle": style.DASHES[3], "linewidth": 1.1},
@@ -22,12 +22,12 @@ _LABELS = {
     "after": "chosen scheme",
     "predicted": "chosen scheme, rate left out",
 }
-_MEASURED: Look = {"color": style.MEASURED, "linewidth": 0.8}
+_MEASURED: DrawStyle = {"color": style.MEASURED, "linewidth": 0.8}
 
 
-def draw(study: Study, results: Results) -> Canvas:
+def draw_schemes(study: Study, results: Results) -> Canvas:
     """Draw one row of panels for each record."""
-    curves = record.curves(results)
+    curves = record.read_scheme_curves(results)
     names = sorted(
         curves["experiment"].unique(),
         key=lambda n: study.experiments[n].heating_rate_K_min,  # type: ignore[union-attr]
@@ -51,7 +51,7 @@ def draw(study: Study, results: Results) -> Canvas:
 def _draw(axes: list[Axes], curve: pd.DataFrame) -> None:
     mass, rate, left = axes
     temperature = curve["temperature_K"].to_numpy(float)
-    at = style.celsius(temperature)
+    at = style.axis_celsius(temperature)
     measured = curve["measured"].to_numpy(float)
     mass.plot(at, measured, **_MEASURED)
     _draw_slope(rate, temperature, measured, _MEASURED)
@@ -70,14 +70,14 @@ def _draw(axes: list[Axes], curve: pd.DataFrame) -> None:
     left.set_ylabel("sim. − meas. [–]")
 
 
-def _draw_slope(ax: Axes, temperature: FloatArray, mass: FloatArray, look: Look) -> None:
+def _draw_slope(ax: Axes, temperature: FloatArray, mass: FloatArray, look: DrawStyle) -> None:
     grid, rate = slope(temperature, mass)
-    ax.plot(style.celsius(grid), rate, **look)
+    ax.plot(style.axis_celsius(grid), rate, **look)
 
 
 FIGURE = Figure(
     place=10,
-    make=draw,
+    make=draw_schemes,
     title="Reaction scheme of the study and the chosen one",
     caption="At every heating rate, the slowest at the top: mass over initial mass (left), "
     "its slope over temperature (middle), simulated minus measured mass (right). "

@@ -10,13 +10,19 @@ from pyrofit.cost.distances import root_mean_square
 from pyrofit.estimate.posterior import interval, limit_of
 from pyrofit.scheme.choice import Candidate, Choice
 from pyrofit.scheme.fit import FittedScheme
-from pyrofit.scheme.prediction import Predicted
-from pyrofit.scheme.settings import Settings
+from pyrofit.scheme.prediction import PredictedRecord
+from pyrofit.scheme.settings import SchemeSettings
 from pyrofit.scheme.words import RULE, sentences
-from pyrofit.steps.scheme.record import EXTENDED, OfParameter, OfRecord, OfScheme, SchemeChoice
+from pyrofit.steps.scheme.record import (
+    EXTENDED,
+    OfRecord,
+    OfScheme,
+    OfSchemeParameter,
+    SchemeChoice,
+)
 
 
-def found_of(choice: Choice, settings: Settings) -> SchemeChoice:
+def scheme_found(choice: Choice, settings: SchemeSettings) -> SchemeChoice:
     """Return the result."""
     chosen = choice.chosen.fitted
     scheme = chosen.posed.scheme
@@ -62,12 +68,12 @@ def _fitted_records(candidate: Candidate) -> list[OfRecord]:
         candidate.fitted.records, candidate.fitted.residuals(), strict=True
     ):
         out = left_out.get(record.experiment)
-        predicted = Predicted(record, record.mass + residual, 0.0)
+        predicted = PredictedRecord(record, record.mass + residual, 0.0)
         rows.append(_record(predicted, predicted.rms, None if out is None else out.rms))
     return rows
 
 
-def _record(met: Predicted, rms: float, predicted: float | None) -> OfRecord:
+def _record(met: PredictedRecord, rms: float, predicted: float | None) -> OfRecord:
     record = met.record
     return OfRecord(
         experiment=record.experiment,
@@ -79,7 +85,7 @@ def _record(met: Predicted, rms: float, predicted: float | None) -> OfRecord:
     )
 
 
-def parameters_of(fitted: FittedScheme) -> dict[str, OfParameter]:
+def parameters_of(fitted: FittedScheme) -> dict[str, OfSchemeParameter]:
     """Return the parameters of a fit with linear 95 % intervals, in their units."""
     spread = np.sqrt(np.diag(fitted.spread()))
     found = {}
@@ -87,7 +93,7 @@ def parameters_of(fitted: FittedScheme) -> dict[str, OfParameter]:
         p = fitted.posed.study.parameters[name]
         low, high = (limit / p.factor for limit in p.bounds_si)
         ends = interval(float(x), float(sd))
-        found[name] = OfParameter(
+        found[name] = OfSchemeParameter(
             label=p.label,
             unit=p.unit,
             value=low + float(x) * (high - low),
@@ -129,9 +135,9 @@ def curves_of(choice: Choice) -> pd.DataFrame:
 
 
 def _curves(
-    candidate: Candidate, held_out: Mapping[str, Sequence[Predicted]]
-) -> dict[str, Predicted]:
+    candidate: Candidate, held_out: Mapping[str, Sequence[PredictedRecord]]
+) -> dict[str, PredictedRecord]:
     fitted = candidate.fitted
     pairs = zip(fitted.records, fitted.residuals(), strict=True)
-    found = {r.experiment: Predicted(r, r.mass + residual, 0.0) for r, residual in pairs}
+    found = {r.experiment: PredictedRecord(r, r.mass + residual, 0.0) for r, residual in pairs}
     return found | {p.record.experiment: p for p in held_out[fitted.name]}

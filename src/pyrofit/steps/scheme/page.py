@@ -3,7 +3,7 @@
 from pyrofit.config import Study
 from pyrofit.results.files import Results
 from pyrofit.show.page import page_of_step
-from pyrofit.show.parts import Part, study_to_run
+from pyrofit.show.parts import Passage, study_to_run
 from pyrofit.steps.scheme import record
 from pyrofit.steps.scheme.figure import FIGURE
 from pyrofit.steps.scheme.tables import PARAMETERS, SCHEMES
@@ -14,7 +14,7 @@ def _sentences(study: Study, results: Results) -> list[str]:
     return [found.words, found.rule]
 
 
-def _extended(study: Study, results: Results) -> list[Part]:
+def _extended(study: Study, results: Results) -> list[Passage]:
     path = results.of_step("scheme", record.read(study, results).extended_study)
     return [study_to_run("chosen scheme", "chosen scheme at its fitted values", path)]
 

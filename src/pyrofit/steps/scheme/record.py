@@ -48,7 +48,7 @@ class OfScheme(Record):
     records: list[OfRecord] = Field(description="how it meets each record")
 
 
-class OfParameter(Record):
+class OfSchemeParameter(Record):
     """A parameter of the chosen scheme with its 95 % interval, in its unit."""
 
     label: str = Field(description="name in words")
@@ -70,7 +70,7 @@ class SchemeChoice(Record):
     words: str = Field(description="the result in sentences")
     schemes: list[OfScheme] = Field(min_length=1, description="all fitted schemes, least BIC first")
     own: OfScheme = Field(description="the scheme that the study describes, fitted alike")
-    parameters: dict[str, OfParameter] = Field(description="parameters of the chosen scheme")
+    parameters: dict[str, OfSchemeParameter] = Field(description="parameters of the chosen scheme")
     settings: dict[str, Any] = Field(description="numbers that steer the choice")
     extended_study: str = Field(description="file of the study with the chosen scheme")
 
@@ -97,7 +97,7 @@ def read(study: Study, results: Results) -> SchemeChoice:
     return read_record(results.of_step("scheme", FILE), SchemeChoice, is_ours)
 
 
-def curves(results: Results) -> pd.DataFrame:
+def read_scheme_curves(results: Results) -> pd.DataFrame:
     """Return measured and simulated masses over initial mass, by experiment."""
     needs = {"experiment": object, **dict.fromkeys(COLUMNS, float)}
     return read_csv(results.of_step("scheme", CURVES), needs)

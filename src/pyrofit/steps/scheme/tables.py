@@ -34,7 +34,7 @@ def _row(s: OfScheme, chosen: bool, least: float) -> Row:
     }
 
 
-def parameters(study: Study, results: Results) -> pd.DataFrame:
+def scheme_parameters_table(study: Study, results: Results) -> pd.DataFrame:
     """List the parameters of the chosen scheme."""
     found = record.read(study, results)
     return pd.DataFrame(
@@ -73,7 +73,7 @@ SCHEMES = Table(
 )
 PARAMETERS = Table(
     place=70,
-    make=parameters,
+    make=scheme_parameters_table,
     title="Parameters of the chosen scheme",
     note="Linear 95 % intervals within the limits. A reference temperature is that at which the "
     "rate constant is 0.001 1/s.",

@@ -14,11 +14,11 @@ from pyrofit.seeds import seed_for
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages.scorer import AT_ONCE, Scorer, scorer_of
 from pyrofit.steps.sensitivity import record
-from pyrofit.steps.sensitivity.found import found_of, of_input, write_tables
+from pyrofit.steps.sensitivity.found import indices_found, of_input, write_tables
 from pyrofit.steps.sensitivity.options import SensitivityOptions
 from pyrofit.steps.sensitivity.record import Sensitivity
 from pyrofit.steps.sensitivity.sampler import Sampler
-from pyrofit.steps.sensitivity.varied import inputs_of
+from pyrofit.steps.sensitivity.varied import varied_inputs
 
 MOST_TIMES = 120
 """Times of a signal at which indices are computed."""
@@ -43,19 +43,19 @@ def run(study: Study, results: Results, tell: Tell, processes: int) -> None:
     known, left_out = measures_of(study, measurements)
     measures = [m for m in known if m.name in study.imp.costs or not m.name.endswith(LITERAL)]
     scorer, more = scorer_of(study, results, measurements, [_signals(study), *measures])
-    inputs, problem = inputs_of(study, results, scorer.problem, options.within)
+    inputs, problem = varied_inputs(study, results, scorer.problem, options.within)
     sampler = Sampler(Scorer(problem, scorer.measures, scorer.likelihood), inputs, _times(scorer))
     seed = seed_for(study.seed, "sensitivity")
     points = sobol.design(options.samples, len(inputs), seed)
     tell(f"sensitivity: {points[..., 0].size} model calls, {len(inputs)} inputs")
-    outputs, failed = sobol.filled(_sampled(sampler, points, processes), seed)
+    outputs, failed = sobol.replace_failed(_sampled(sampler, points, processes), seed)
     if failed == options.samples:
         raise DataError(
             f"{results.root}: of each point of the sample, a run does not finish; narrow the "
             "limits of the parameters, or take more points with --samples"
         )
     indices = sobol.indices(outputs, seed)
-    found = found_of(study, sampler, outputs, indices)
+    found = indices_found(study, sampler, outputs, indices)
     write_tables(results, found)
     record.write(
         results,

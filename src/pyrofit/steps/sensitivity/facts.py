@@ -17,7 +17,7 @@ MOST_SHOWN = 6
 """Inputs that a figure tells apart."""
 
 
-def shown(found: Sensitivity) -> list[OfCost]:
+def shown_costs(found: Sensitivity) -> list[OfCost]:
     """Return the costs to show: of those that differ by a factor, the first."""
     again = {name for group in found.same for name in group[1:]}
     return [cost for cost in found.costs if cost.name not in again]
@@ -33,7 +33,7 @@ def short(found: Sensitivity, name: str) -> str:
     return f"{own}, {one.experiment}" if several else own
 
 
-def estimated(found: Sensitivity) -> list[str]:
+def names_of_estimated(found: Sensitivity) -> list[str]:
     """Return the names of the estimated parameters."""
     return [one.name for one in found.inputs if one.kind == "estimated"]
 
@@ -43,7 +43,7 @@ def others(found: Sensitivity) -> list[str]:
     return [one.name for one in found.inputs if one.kind != "estimated"]
 
 
-def largest(found: Sensitivity, names: Sequence[str], count: int = MOST_SHOWN) -> list[str]:
+def largest_inputs(found: Sensitivity, names: Sequence[str], count: int = MOST_SHOWN) -> list[str]:
     """Return those inputs with the largest index at some time, in their order."""
     most = {name: max(s.most[name] for s in found.signals) for name in names}
     first = sorted(names, key=lambda name: -most[name])[:count]
@@ -55,7 +55,7 @@ def over_time(results: Results, signal: OfSignal) -> pd.DataFrame:
     return _of(read_csv(results.of_step("sensitivity", record.OVER_TIME)), signal)
 
 
-def curve(results: Results, signal: OfSignal) -> pd.DataFrame:
+def mean_curve(results: Results, signal: OfSignal) -> pd.DataFrame:
     """Return mean and band of a signal over the sample."""
     return _of(read_csv(results.of_step("sensitivity", record.CURVES)), signal)
 

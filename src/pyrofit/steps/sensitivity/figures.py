@@ -7,17 +7,17 @@ import numpy as np
 from pyrofit.config import Study
 from pyrofit.results.files import Results
 from pyrofit.show import style, units
-from pyrofit.show.drawn import Axes, Canvas, Look
+from pyrofit.show.drawn import Axes, Canvas, DrawStyle
 from pyrofit.show.figure import Figure
 from pyrofit.steps.sensitivity import record
 from pyrofit.steps.sensitivity.facts import (
-    curve,
-    estimated,
-    largest,
+    largest_inputs,
+    mean_curve,
+    names_of_estimated,
     others,
     over_time,
     short,
-    shown,
+    shown_costs,
     words,
 )
 from pyrofit.steps.sensitivity.record import OfSignal, Sensitivity
@@ -25,9 +25,9 @@ from pyrofit.steps.sensitivity.record import OfSignal, Sensitivity
 HATCHES = ("", "////", "....", "\\\\\\\\", "xxxx", "----")
 
 
-def total(study: Study, results: Results) -> Canvas:
+def draw_total(study: Study, results: Results) -> Canvas:
     """Draw the total index of the estimated parameters over time, with its interval."""
-    return _total(study, results, estimated(record.read(study, results)))
+    return _total(study, results, names_of_estimated(record.read(study, results)))
 
 
 def apparatus(study: Study, results: Results) -> Canvas:
@@ -37,7 +37,7 @@ def apparatus(study: Study, results: Results) -> Canvas:
 
 def _total(study: Study, results: Results, among: Sequence[str]) -> Canvas:
     found = record.read(study, results)
-    names = largest(found, among)
+    names = largest_inputs(found, among)
 
     def draw(ax: Axes, signal: OfSignal) -> None:
         frame = over_time(results, signal)
@@ -62,7 +62,7 @@ def first(study: Study, results: Results) -> Canvas:
     """Draw the shares of the variance that inputs make alone, stacked, over time."""
     found = record.read(study, results)
     rest = others(found)
-    names = largest(found, estimated(found), len(HATCHES) - 1)
+    names = largest_inputs(found, names_of_estimated(found), len(HATCHES) - 1)
 
     def draw(ax: Axes, signal: OfSignal) -> None:
         table = over_time(results, signal).pivot(index="time_s", columns="input", values="first")
@@ -77,7 +77,7 @@ def first(study: Study, results: Results) -> Canvas:
 
     faces = [*(style.colour(i) for i in range(len(names))), "0.45"]
     hatches = [*HATCHES[: len(names)], HATCHES[-1]]
-    looks: list[Look] = [
+    looks: list[DrawStyle] = [
         {"facecolor": face, "hatch": hatch, "alpha": 0.6, "edgecolor": "white"}
         for face, hatch in zip(faces, hatches, strict=True)
     ]
@@ -113,7 +113,7 @@ def _panels(
 def _mean(study: Study, results: Results, ax: Axes, signal: OfSignal) -> None:
     """Draw the mean curve behind the indices, with its own axis at the right."""
     quantity = study.experiments[signal.experiment].quantity(signal.signal)
-    frame = curve(results, signal)
+    frame = mean_curve(results, signal)
     other = ax.twinx()
     other.plot(frame["time_s"], units.shown(quantity, frame["mean"]), color="0.6", linewidth=2.0)
     other.set_ylabel(f"mean [{quantity.shown.unit}]", color="0.4")
@@ -124,10 +124,10 @@ def _mean(study: Study, results: Results, ax: Axes, signal: OfSignal) -> None:
     ax.tick_params(right=False)
 
 
-def costs(study: Study, results: Results) -> Canvas:
+def draw_costs(study: Study, results: Results) -> Canvas:
     """Draw the total index of every cost by input."""
     found = record.read(study, results)
-    rows = shown(found)
+    rows = shown_costs(found)
     names = [one.name for one in found.inputs]
     table = np.array([[cost.total[name] for name in names] for cost in rows])
     width = min(style.TWO_COLUMNS, 48.0 + 9.5 * len(names))
@@ -140,7 +140,7 @@ def costs(study: Study, results: Results) -> Canvas:
     ax.set_xticks(range(len(names)), labels, rotation=45, ha="right", rotation_mode="anchor")
     ax.set_yticks(range(len(rows)), [cost.name for cost in rows])
     ax.tick_params(length=0)
-    count = len(estimated(found))
+    count = len(names_of_estimated(found))
     if count < len(names):
         ax.axvline(count - 0.5, color="white", linewidth=2.5)
     canvas.colorbar(image, ax=ax, label="total index [–]", shrink=0.9)
@@ -150,7 +150,7 @@ def costs(study: Study, results: Results) -> Canvas:
 FIGURES = {
     "total": Figure(
         place=10,
-        make=total,
+        make=draw_total,
         title="On which estimated parameters the signals depend",
         caption="Total index of the parameters that matter most: share of the variance at a time "
         "in which a parameter takes part, alone or in combination. Bands: 95 % intervals of the "
@@ -173,7 +173,7 @@ FIGURES = {
     ),
     "costs": Figure(
         place=30,
-        make=costs,
+        make=draw_costs,
         title="Which cost sees which parameter",
         caption="Total index of every cost. Left of the white line estimated parameters, right of "
         "it known values and the apparatus. Near 0: the cost does not change with the parameter. "

@@ -27,7 +27,7 @@ EQUAL = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
-class Found:
+class FoundIndices:
     """Results of the analysis: tables of indices and curves, and what the record says of them."""
 
     curves: pd.DataFrame
@@ -39,7 +39,9 @@ class Found:
     """Groups of costs with equal indices."""
 
 
-def found_of(study: Study, sampler: Sampler, outputs: FloatArray, indices: Indices) -> Found:
+def indices_found(
+    study: Study, sampler: Sampler, outputs: FloatArray, indices: Indices
+) -> FoundIndices:
     """Return the results.
 
     Parameters
@@ -64,7 +66,7 @@ def found_of(study: Study, sampler: Sampler, outputs: FloatArray, indices: Indic
         signals.append(_signal(experiment, signal, frame, values, names))
     measures = sampler.scorer.measures[1:]
     frame = _indices(indices, slice(first, None), names, {"cost": [m.name for m in measures]})
-    return Found(
+    return FoundIndices(
         curves=pd.concat(curves, ignore_index=True),
         over_time=pd.concat(over_time, ignore_index=True),
         of_costs=frame,
@@ -74,7 +76,7 @@ def found_of(study: Study, sampler: Sampler, outputs: FloatArray, indices: Indic
     )
 
 
-def write_tables(results: Results, found: Found) -> None:
+def write_tables(results: Results, found: FoundIndices) -> None:
     """Write curves, indices over time, and indices of costs."""
     tables = {
         record.CURVES: found.curves,

@@ -12,7 +12,7 @@ def slice_of(study: Study) -> dependencies.Slice:
     """Return the likelihood, all costs and experiments, and known values."""
     return {
         "searches": {cost: dependencies.imp(study, cost, "sceua") for cost in study.imp.costs},
-        "likelihood": dependencies.identify(study),
+        "likelihood": dependencies.identify_slice(study),
         "kinds": {name: code_digest("costs", name) for name in known_costs()},
         "known": {name: known.model_dump() for name, known in study.known.items()},
         "seed": study.seed,

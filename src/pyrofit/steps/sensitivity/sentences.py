@@ -9,7 +9,15 @@ from pyrofit.config import Study
 from pyrofit.results.files import Results
 from pyrofit.show.text import listed, several
 from pyrofit.steps.sensitivity import record
-from pyrofit.steps.sensitivity.facts import PLAIN, SEEN, estimated, over_time, short, shown, words
+from pyrofit.steps.sensitivity.facts import (
+    PLAIN,
+    SEEN,
+    names_of_estimated,
+    over_time,
+    short,
+    shown_costs,
+    words,
+)
 from pyrofit.steps.sensitivity.record import OfCost, OfSignal, Sensitivity
 
 WITHIN = {
@@ -24,8 +32,8 @@ BRIEF = 0.04
 def sentences(study: Study, results: Results) -> list[str]:
     """Return the sentences on the sensitivity of signals and costs."""
     found = record.read(study, results)
-    own = [cost for cost in shown(found) if cost.own]
-    single = [cost for cost in shown(found) if cost.at_s is not None]
+    own = [cost for cost in shown_costs(found) if cost.own]
+    single = [cost for cost in shown_costs(found) if cost.at_s is not None]
     return [
         _sample(found),
         *(_leading(study, found, signal, results) for signal in found.signals),
@@ -33,13 +41,13 @@ def sentences(study: Study, results: Results) -> list[str]:
         *_blind(study, found, own),
         *_elsewhere(study, found, own),
         *(_of_one_time(study, found, cost) for cost in single),
-        *_one_number(found, own or shown(found)),
+        *_one_number(found, own or shown_costs(found)),
         *_warnings(found),
     ]
 
 
 def _sample(found: Sensitivity) -> str:
-    count = len(estimated(found))
+    count = len(names_of_estimated(found))
     return (
         f"{found.runs} runs vary {several(count, 'estimated parameter')} {WITHIN[found.within]}, "
         f"and {several(len(found.inputs) - count, 'other value')} within their uncertainty."
@@ -89,7 +97,7 @@ def _apparatus(study: Study, found: Sensitivity) -> list[str]:
 
 
 def _unseen(found: Sensitivity, cost: OfCost) -> list[str]:
-    return [name for name in estimated(found) if cost.total[name] < SEEN]
+    return [name for name in names_of_estimated(found) if cost.total[name] < SEEN]
 
 
 def _blind(study: Study, found: Sensitivity, costs: Iterable[OfCost]) -> list[str]:
@@ -110,7 +118,7 @@ def _blind(study: Study, found: Sensitivity, costs: Iterable[OfCost]) -> list[st
 
 def _elsewhere(study: Study, found: Sensitivity, costs: list[OfCost]) -> list[str]:
     """Say which signal at which time shows a parameter that no cost of the study sees."""
-    lost = [n for n in estimated(found) if costs and all(c.total[n] < SEEN for c in costs)]
+    lost = [n for n in names_of_estimated(found) if costs and all(c.total[n] < SEEN for c in costs)]
     said = []
     for name in lost:
         best = max(found.signals, key=lambda s: s.most[name])
@@ -153,7 +161,7 @@ def _one_number(found: Sensitivity, costs: list[OfCost]) -> list[str]:
     together = {c.name: 100.0 * min(max(1.0 - sum(c.first.values()), 0.0), 1.0) for c in costs}
     low, high = min(together.values()), max(together.values())
     part = f"{high:.0f} %" if high - low < 1.0 else f"{low:.0f} to {high:.0f} %"
-    count = len(estimated(found))
+    count = len(names_of_estimated(found))
     return [
         f"A cost adds up the times of its signals to one number, whatever parameter changed them: "
         f"one equation for {several(count, 'parameter')}. {part} of the variance of the costs is "

@@ -6,7 +6,7 @@ from pyrofit.config import Study
 from pyrofit.results.files import Results, read_csv
 from pyrofit.show.table import Row, Table
 from pyrofit.steps.sensitivity import record
-from pyrofit.steps.sensitivity.facts import distribution, short, shown
+from pyrofit.steps.sensitivity.facts import distribution, short, shown_costs
 
 
 def inputs(study: Study, results: Results) -> pd.DataFrame:
@@ -27,12 +27,12 @@ def inputs(study: Study, results: Results) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def costs(study: Study, results: Results) -> pd.DataFrame:
+def costs_table(study: Study, results: Results) -> pd.DataFrame:
     """List the total index of every cost with its interval, in words."""
     found = record.read(study, results)
     frame = read_csv(results.of_step("sensitivity", record.COSTS)).fillna(0.0)
     rows = []
-    for cost in shown(found):
+    for cost in shown_costs(found):
         own = frame[frame["cost"] == cost.name].set_index("input")
         row: Row = {"cost": cost.name}
         for one in found.inputs:
@@ -54,7 +54,7 @@ TABLES = {
     ),
     "costs": Table(
         place=70,
-        make=costs,
+        make=costs_table,
         title="Total index of the costs",
         note="With the 95 % interval of the bootstrap.",
         shown=False,

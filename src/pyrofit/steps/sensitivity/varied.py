@@ -9,7 +9,7 @@ from pyrofit.config import Study, parameters_in
 from pyrofit.effects.base import changed
 from pyrofit.estimate.prior import within_known
 from pyrofit.estimate.problem import Problem
-from pyrofit.experiments.slab.uncertain import PLACES, Place, described, with_value
+from pyrofit.experiments.slab.uncertain import PLACES, Place, described_number, with_value
 from pyrofit.model.slab import SlabExperiment
 from pyrofit.results.files import Results, read_csv
 from pyrofit.solver.arrays import FloatArray
@@ -56,7 +56,7 @@ class Input:
         return np.asarray(np.clip(drawn, self.low, self.high))
 
 
-def inputs_of(
+def varied_inputs(
     study: Study, results: Results, problem: Problem, within: str
 ) -> tuple[list[Input], Problem]:
     """Return the inputs that vary, and the problem with names in their places.
@@ -159,7 +159,7 @@ def _apparatus(problem: Problem) -> tuple[Problem, list[Input]]:
     for name, run in problem.runs.items():
         experiment = run.experiment
         for key, place in PLACES.items():
-            if (value := described(experiment, place)) is not None:
+            if (value := described_number(experiment, place)) is not None:
                 made = f"{name}_{key}"
                 experiment = with_value(experiment, place, made)
                 found.append(_uncertain(made, place, value, name))

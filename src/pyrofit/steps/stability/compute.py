@@ -1,7 +1,7 @@
 """Stability of a diagnosis: the same diagnosis on disturbed data."""
 
 from pyrofit.config import Study
-from pyrofit.diagnose.diagnosis import Diagnosis, examine
+from pyrofit.diagnose.diagnosis import DiagnosisWork, examine
 from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.logs import Tell
 from pyrofit.results.files import Results
@@ -37,7 +37,7 @@ def run(study: Study, results: Results, tell: Tell, processes: int, draw: str) -
     record.write(results, _of_draw(study, results, number, found))
 
 
-def _of_draw(study: Study, results: Results, draw: int, found: Diagnosis) -> record.OfDraw:
+def _of_draw(study: Study, results: Results, draw: int, found: DiagnosisWork) -> record.OfDraw:
     verdict, end = found.content.verdict, found.searched
     return record.OfDraw(
         study=study.name,

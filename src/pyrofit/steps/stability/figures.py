@@ -18,7 +18,7 @@ WRAP = 44
 """Letters of a line beside the bars."""
 
 
-def draw(study: Study, results: Results) -> Canvas:
+def draw_shares(study: Study, results: Results) -> Canvas:
     """Draw the shares of the draws whose verdict names an effect, or whose model has it."""
     found = read(study, results)
     shown = found.effects[:MOST]
@@ -50,7 +50,7 @@ def draw(study: Study, results: Results) -> Canvas:
 FIGURES = {
     "stability": Figure(
         place=10,
-        make=draw,
+        make=draw_shares,
         title="How often disturbed data lead to each effect",
         caption="Share of the disturbed data sets whose verdict claims an effect (dark), and whose "
         "search ends with a model that has it (light). The tests of a claim may reject it "

@@ -14,7 +14,7 @@ def parts(study: Study) -> list[str]:
 
 def slice_of(study: Study, draw: str) -> dependencies.Slice:
     """Return the inputs of a draw: those of the diagnosis."""
-    return dependencies.diagnose(study)
+    return dependencies.diagnose_slice(study)
 
 
 INPUTS = Inputs(

@@ -45,7 +45,7 @@ def origin(study: Study, results: Results) -> str:
     files = {results.measurement(c.experiment, c.signal) for c in channels}
     measured = [sha256(path) for path in sorted(files) if path.is_file()]
     source = source_fingerprint("pyrofit.steps.stability.compute")
-    return digest([dependencies.diagnose(study), measured, source])
+    return digest([dependencies.diagnose_slice(study), measured, source])
 
 
 def write(results: Results, found: OfDraw) -> None:

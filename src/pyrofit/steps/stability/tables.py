@@ -23,7 +23,7 @@ COLUMNS = (
 OF_DRAWS = ("data", "kind", "confirmed", "claimed", "final", "chi2", "reasons")
 
 
-def effects(study: Study, results: Results) -> pd.DataFrame:
+def effects_table(study: Study, results: Results) -> pd.DataFrame:
     """List the effects that are found, those of the measured data first."""
     found = read(study, results)
     count = len(found.draws)
@@ -74,7 +74,7 @@ def _listed(effects: list[str]) -> str:
 TABLES = {
     "effects": Table(
         place=60,
-        make=effects,
+        make=effects_table,
         title="Effects found in disturbed data",
         note="Claimed: share of the disturbed data sets whose verdict claims the effect. In the "
         "model: share whose search ends with a model that has it. The tests of a claim may reject "

@@ -11,14 +11,14 @@ from dataclasses import replace
 import numpy as np
 
 from pyrofit.diagnose.base.fitted import FittedModel
-from pyrofit.experiments.slab.uncertain import PLACES, described, with_value
+from pyrofit.experiments.slab.uncertain import PLACES, described_number, with_value
 from pyrofit.model.experiment import Experiment
 from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
-from pyrofit.steps.worth.forecast import Lasting, Record
+from pyrofit.steps.worth.forecast import ForecastRecord, Lasting
 
 
-def of_record(fitted: FittedModel, record: Record, dispersion: float) -> Record:
+def of_record(fitted: FittedModel, record: ForecastRecord, dispersion: float) -> ForecastRecord:
     """Return a record with its uncertainty by the apparatus."""
 
     def whitened(experiment: Experiment) -> FloatArray | None:
@@ -55,7 +55,7 @@ def _moves(
     """Return the change of a whitened record by one standard deviation of each value."""
     found = []
     for place in PLACES.values():
-        if (value := described(experiment, place)) is None:
+        if (value := described_number(experiment, place)) is None:
             continue
         ends = [whitened(with_value(experiment, place, value + d)) for d in (place.sd, -place.sd)]
         if ends[0] is not None and ends[1] is not None:

@@ -13,14 +13,14 @@ from pyrofit.numerics import linear
 from pyrofit.parallel import parallel_map
 from pyrofit.seeds import seed_for
 from pyrofit.solver.arrays import FloatArray
-from pyrofit.steps.worth.forecast import Forecast, Lasting, Record, simulated
+from pyrofit.steps.worth.forecast import Forecast, ForecastRecord, Lasting, simulated_curves
 
 ENOUGH = 1e-3
 """A refit ends where the next step promises less of chi-square."""
 
 
 @dataclass(frozen=True, eq=False)
-class Drawn:
+class DrawnData:
     """Data as they would be if the best fit were the truth, by seed.
 
     Parameters
@@ -40,7 +40,7 @@ class Drawn:
     seed: int
     lasting: Lasting
 
-    def refit(self, number: int, record: Record | None) -> FloatArray:
+    def refit(self, number: int, record: ForecastRecord | None) -> FloatArray:
         """Return the parameters fitted to a drawn data set, in distances of their limits.
 
         The data so far are drawn alike whatever is recorded besides.
@@ -75,8 +75,8 @@ class Drawn:
 
 
 def spreads(
-    drawn: Drawn,
-    records: Sequence[Record | None],
+    drawn: DrawnData,
+    records: Sequence[ForecastRecord | None],
     predictions: Mapping[str, Forecast],
     draws: int,
     cores: int,
@@ -94,7 +94,7 @@ def spreads(
         X = np.array(ends[k * draws : (k + 1) * draws])
         spread = {}
         for name, one in predictions.items():
-            curves = simulated(likelihood, one.experiment, one.requests, X)
+            curves = simulated_curves(likelihood, one.experiment, one.requests, X)
             finished = np.array([curve for curve in curves if curve is not None])
             spread[name] = float(np.sqrt(np.mean(np.var(finished, axis=0, ddof=1))))
         found.append((np.std(X, axis=0, ddof=1), spread))

@@ -20,11 +20,11 @@ from pyrofit.solver.arrays import FloatArray
 from pyrofit.steps.worth import record
 from pyrofit.steps.worth.apparatus import of_fitted, of_record
 from pyrofit.steps.worth.best_fit import best_fit
-from pyrofit.steps.worth.check import Drawn, spreads
-from pyrofit.steps.worth.forecast import Forecast, Lasting, forecast
+from pyrofit.steps.worth.check import DrawnData, spreads
+from pyrofit.steps.worth.forecast import Forecast, Lasting, forecast_test
 from pyrofit.steps.worth.options import WorthOptions
 from pyrofit.steps.worth.planned import Planned, planned
-from pyrofit.steps.worth.record import OfTest, Predicted, Sds, Worth
+from pyrofit.steps.worth.record import OfPrediction, OfTest, Sds, Worth
 
 CHECKED = 3
 """Tests that are checked."""
@@ -70,7 +70,7 @@ def run(study: Study, results: Results, tell: Tell, processes: int) -> None:
     before = _curvature(fitted, lasting)
     ranked = _ranked(fitted, before, tests, predictions)
     best = [one.test for one in ranked[:CHECKED]]
-    drawn = Drawn(fitted, dispersion, study.seed, lasting)
+    drawn = DrawnData(fitted, dispersion, study.seed, lasting)
     checked = _checked(study, drawn, best, predictions, options.draws, tell, processes)
     found = Worth(
         study=study.name,
@@ -88,9 +88,9 @@ def run(study: Study, results: Results, tell: Tell, processes: int) -> None:
     record.write(results, found)
 
 
-def _predicted(name: str) -> Predicted:
+def _predicted(name: str) -> OfPrediction:
     experiment, signal = name.split(" ")
-    return Predicted(experiment=experiment, signal=signal)
+    return OfPrediction(experiment=experiment, signal=signal)
 
 
 def _of_test(study: Study, fitted: FittedModel, one: Ranked, checked: Sds | None) -> OfTest:
@@ -115,7 +115,7 @@ def _curvature(fitted: FittedModel, lasting: Lasting) -> FloatArray:
 
 def _checked(
     study: Study,
-    drawn: Drawn,
+    drawn: DrawnData,
     tests: Sequence[Planned],
     predictions: Mapping[str, Forecast],
     draws: int,
@@ -146,7 +146,7 @@ def _predictions(
             frame = measurements[name, signal]
             time = frame["time_s"].to_numpy(float)
             request = kind_of(experiment).request(experiment, signal, frame, time)
-            if one := forecast(likelihood, x, experiment, {signal: request}):
+            if one := forecast_test(likelihood, x, experiment, {signal: request}):
                 found[f"{name} {signal}"] = one
     return found
 

@@ -9,7 +9,7 @@ LITTLE = 5.0
 """Narrowing below which a test is said to tell nothing new [%]."""
 
 
-def remaining(found: Worth, test: OfTest, checked: bool = False) -> dict[str, float]:
+def share_left(found: Worth, test: OfTest, checked: bool = False) -> dict[str, float]:
     """Return the share of each standard deviation that a test leaves [%], parameters first."""
     before, after = (found.now_checked, test.checked) if checked else (found.now, test.sds)
     if before is None or after is None:

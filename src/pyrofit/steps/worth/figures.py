@@ -10,23 +10,23 @@ from pyrofit.show import style
 from pyrofit.show.drawn import Canvas
 from pyrofit.show.figure import Figure
 from pyrofit.steps.worth import record
-from pyrofit.steps.worth.facts import LITTLE, remaining, symbol
+from pyrofit.steps.worth.facts import LITTLE, share_left, symbol
 from pyrofit.steps.worth.record import OfTest, Worth
 
 MOST_TESTS = 18
 """Tests that the figure shows; the table has all."""
 
 
-def draw(study: Study, results: Results) -> Canvas:
+def draw_worth(study: Study, results: Results) -> Canvas:
     """Draw the share of each standard deviation that the best tests leave, checks in brackets."""
     found = record.read(study, results)
     tests = found.tests[:MOST_TESTS]
     names = _narrowed(found, tests)
-    left = np.array([[remaining(found, test)[name] for name in names] for test in tests])
+    left = np.array([[share_left(found, test)[name] for name in names] for test in tests])
     canvas, (ax,) = style.panels(1, 1, style.TWO_COLUMNS, 34.0 + 6.4 * len(tests))
     image = ax.imshow(left, cmap="cividis", vmin=0.0, vmax=100.0, aspect="auto")
     for i, test in enumerate(tests):
-        again = remaining(found, test, checked=True)
+        again = share_left(found, test, checked=True)
         for k, name in enumerate(names):
             colour = "white" if left[i, k] < 55.0 else "black"
             text = f"{left[i, k]:.0f}" + (f"\n({again[name]:.0f})" if again else "")
@@ -45,14 +45,14 @@ def draw(study: Study, results: Results) -> Canvas:
 def _narrowed(found: Worth, tests: Sequence[OfTest]) -> list[str]:
     """Return the parameters and predictions that some test narrows, all where none does."""
     names = [*found.now.parameters, *found.now.predictions]
-    left = {name: min(remaining(found, test)[name] for test in tests) for name in names}
+    left = {name: min(share_left(found, test)[name] for test in tests) for name in names}
     return [name for name in names if left[name] < 100.0 - LITTLE] or names
 
 
 FIGURES = {
     "worth": Figure(
         place=10,
-        make=draw,
+        make=draw_worth,
         title="Standard deviations that planned tests leave",
         caption="Left of the white line parameters, right of it predicted curves (root mean square "
         "over the record). Dark: the test narrows it much; 100: it tells nothing new. In brackets: "

@@ -28,7 +28,7 @@ class Forecast:
     slopes: Mapping[str, FloatArray]
 
 
-def simulated(
+def simulated_curves(
     likelihood: Likelihood,
     experiment: Experiment,
     requests: Mapping[str, Request],
@@ -46,13 +46,13 @@ def simulated(
     ]
 
 
-def forecast(
+def forecast_test(
     likelihood: Likelihood, x: FloatArray, experiment: Experiment, requests: Mapping[str, Request]
 ) -> Forecast | None:
     """Return curves and derivatives of a test at x; None where a run does not finish."""
 
     def curves(X: FloatArray) -> list[FloatArray | None]:
-        return simulated(likelihood, experiment, requests, X)
+        return simulated_curves(likelihood, experiment, requests, X)
 
     here = curves(x[None])[0]
     if here is None:
@@ -89,7 +89,7 @@ class Lasting:
 
 
 @dataclass(frozen=True, eq=False)
-class Record:
+class ForecastRecord:
     """A further record: some signals of a forecast, with their noise."""
 
     forecast: Forecast
@@ -105,7 +105,7 @@ class Record:
     def whitened(self, likelihood: Likelihood, x: FloatArray) -> FloatArray | None:
         """Return the whitened differences of the curves at x and at the best fit."""
         asked = {s: self.forecast.requests[s] for s in self.noise}
-        there = simulated(likelihood, self.forecast.experiment, asked, x[None])[0]
+        there = simulated_curves(likelihood, self.forecast.experiment, asked, x[None])[0]
         if there is None:
             return None
         ends = np.cumsum([r.time_s.size for r in asked.values()])[:-1]

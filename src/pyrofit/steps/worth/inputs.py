@@ -11,9 +11,9 @@ from pyrofit.steps.worth import record
 def slice_of(study: Study) -> dependencies.Slice:
     """Return all data that are fitted, and predicted signals."""
     return {
-        "likelihood": dependencies.identify(study),
+        "likelihood": dependencies.identify_slice(study),
         "kinetics": dependencies.kinetics(study) if study.imp.kinetics == "fitted" else {},
-        "validation": dependencies.validation(study),
+        "validation": dependencies.validation_slice(study),
         # New tests may record any quantity.
         "quantities": {n: code_digest("quantities", n) for n in known_quantities()},
         "seed": study.seed,

@@ -23,7 +23,7 @@ from pyrofit.quantities import known_quantities
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.curves import Place, Request
 from pyrofit.solver.outputs import FRONT, HEAT_FLOW, INSIDE
-from pyrofit.steps.worth.forecast import Forecast, Record, forecast
+from pyrofit.steps.worth.forecast import Forecast, ForecastRecord, forecast_test
 
 INNER = next(name for name, q in known_quantities().items() if q.curve == INSIDE)
 SENSORS = {FRONT: "the front temperature", INNER: "the temperature at half the depth"}
@@ -39,7 +39,7 @@ class Planned:
 
     name: str
     words: str
-    record: Record
+    record: ForecastRecord
 
 
 def planned(study: Study, fitted: FittedModel) -> tuple[list[Planned], list[str]]:
@@ -63,13 +63,13 @@ def planned(study: Study, fitted: FittedModel) -> tuple[list[Planned], list[str]
         if INNER in requests:
             place = Place(_half_depth(experiment))
             requests[INNER] = replace(requests[INNER], output=INSIDE, place=place)
-        made = forecast(likelihood, x, experiment, requests)
+        made = forecast_test(likelihood, x, experiment, requests)
         if made is None:
             left_out += [words for _, words, _ in idea.choices]
             continue
         for name, words, quantities in idea.choices:
             noise = {q: _noise(made, q, kinds[q]) for q in quantities}
-            found.append(Planned(name, words, Record(made, noise)))
+            found.append(Planned(name, words, ForecastRecord(made, noise)))
     calorimetry = _calorimetry(study, fitted)
     return [*found, *([calorimetry] if calorimetry else [])], left_out
 
@@ -130,7 +130,7 @@ def _calorimetry(study: Study, fitted: FittedModel) -> Planned | None:
     )
     T = np.arange(start, end, 1.0)
     request = Request((T - T[0]) * 60.0 / DSC_RATE_K_MIN, temperature_K=T, output=HEAT_FLOW)
-    made = forecast(fitted.model.likelihood, fitted.fit.x, dsc, {HEAT_FLOW: request})
+    made = forecast_test(fitted.model.likelihood, fitted.fit.x, dsc, {HEAT_FLOW: request})
     if made is None or not np.any(made.slopes[HEAT_FLOW]):
         return None
     noise = noise_of_record(
@@ -139,7 +139,7 @@ def _calorimetry(study: Study, fitted: FittedModel) -> Planned | None:
     modes = _baseline(T, quantity.discrepancy_share * made.curves[HEAT_FLOW])
     words = f"DSC at {DSC_RATE_K_MIN:g} K/min"
     name = f"dsc_{DSC_RATE_K_MIN:g}_K_min"
-    return Planned(name, words, Record(made, {HEAT_FLOW: replace(noise, modes=modes)}))
+    return Planned(name, words, ForecastRecord(made, {HEAT_FLOW: replace(noise, modes=modes)}))
 
 
 def _baseline(T: FloatArray, sensitivity: FloatArray) -> FloatArray:

@@ -34,7 +34,7 @@ class OfTest(Record):
     checked: Sds | None = Field(description="the same from refits of drawn data; none = not made")
 
 
-class Predicted(Record):
+class OfPrediction(Record):
     """A predicted curve."""
 
     experiment: str = Field(description="experiment that is not fitted")
@@ -52,7 +52,7 @@ class Worth(Record):
     estimate: dict[str, float] = Field(description="best fit, in the parameters' units")
     now: Sds = Field(description="with the data so far, linear")
     now_checked: Sds | None = Field(description="the same from refits")
-    predictions: dict[str, Predicted] = Field(description="predicted curves, by name")
+    predictions: dict[str, OfPrediction] = Field(description="predicted curves, by name")
     tests: list[OfTest] = Field(min_length=1, description="the tests, the best first")
     left_out: list[str] = Field(description="tests whose simulation does not finish")
 

@@ -4,7 +4,7 @@ from pyrofit.config import Study
 from pyrofit.results.files import Results
 from pyrofit.show.text import listed, several
 from pyrofit.steps.worth import record
-from pyrofit.steps.worth.facts import LITTLE, label, remaining
+from pyrofit.steps.worth.facts import LITTLE, label, share_left
 from pyrofit.steps.worth.record import OfTest, Worth
 
 UNLIKE = 15.0
@@ -20,7 +20,7 @@ def sentences(study: Study, results: Results) -> list[str]:
 
 def _best(study: Study, found: Worth) -> str:
     test = found.tests[0]
-    left = remaining(found, test)
+    left = share_left(found, test)
     parameters = sorted(study.imp.estimate, key=lambda name: left[name])[:MOST_NAMED]
     names = [*parameters, *found.predictions]
     shares = [f"{left[name]:.0f} % ({label(study, found, name)})" for name in names]
@@ -38,9 +38,9 @@ def _check(study: Study, found: Worth) -> list[str]:
     if not checked:
         return []
     apart = {
-        (test.words, name): abs(value - remaining(found, test)[name])
+        (test.words, name): abs(value - share_left(found, test)[name])
         for test in checked
-        for name, value in remaining(found, test, checked=True).items()
+        for name, value in share_left(found, test, checked=True).items()
     }
     (words, name), most = max(apart.items(), key=lambda pair: pair[1])
     about = f"The best {len(checked)} were checked by refits of {found.draws} drawn data sets"
@@ -60,7 +60,7 @@ def _useless(found: Worth) -> list[str]:
 
 
 def _narrows(found: Worth, test: OfTest) -> float:
-    return max(100.0 - left for left in remaining(found, test).values())
+    return max(100.0 - left for left in share_left(found, test).values())
 
 
 def _left_out(found: Worth) -> list[str]:

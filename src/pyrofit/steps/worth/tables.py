@@ -7,7 +7,7 @@ from pyrofit.results.files import Results
 from pyrofit.show.table import Row, Table
 from pyrofit.show.units import difference, difference_unit
 from pyrofit.steps.worth import record
-from pyrofit.steps.worth.facts import label, remaining
+from pyrofit.steps.worth.facts import label, share_left
 
 NOW = "none: standard deviation now"
 
@@ -17,8 +17,8 @@ def tests(study: Study, results: Results) -> pd.DataFrame:
     found = record.read(study, results)
     rows: list[Row] = [_now(study, found)]
     for test in found.tests:
-        rows.append(_row(study, found, test.words, test.gain_bit, remaining(found, test)))
-        if again := remaining(found, test, checked=True):
+        rows.append(_row(study, found, test.words, test.gain_bit, share_left(found, test)))
+        if again := share_left(found, test, checked=True):
             rows.append(_row(study, found, f"{test.words}: refits", None, again))
     return pd.DataFrame(rows)
 

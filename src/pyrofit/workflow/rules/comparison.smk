@@ -17,7 +17,7 @@ rule compare:
     threads: RUNS_CORES
     params:
         study=STUDY,
-        digest=digest(dependencies.compare(study)),
+        digest=digest(dependencies.compare_slice(study)),
         source=source_fingerprint("pyrofit.stages.compare"),
     message:
         "All sets of all optimisers under all costs"

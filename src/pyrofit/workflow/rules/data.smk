@@ -17,7 +17,7 @@ rule prepare:
     localrule: True
     params:
         study=STUDY,
-        digest=digest(dependencies.data(study)),
+        digest=digest(dependencies.data_slice(study)),
         files=study.needs_macfp,
         source=source_fingerprint("pyrofit.stages.measurements"),
     message:

@@ -14,7 +14,7 @@ rule diagnosis:
     threads: 2
     params:
         study=STUDY,
-        digest=digest(dependencies.diagnose(study)),
+        digest=digest(dependencies.diagnose_slice(study)),
         source=source_fingerprint("pyrofit.stages.diagnose"),
     message:
         "Which effect the model lacks"

@@ -17,7 +17,7 @@ rule identify:
     threads: RUNS_CORES
     params:
         study=STUDY,
-        digest=digest(dependencies.identify(study)),
+        digest=digest(dependencies.identify_slice(study)),
         source=source_fingerprint("pyrofit.stages.identify"),
     message:
         "What the data determine of the inverse modelling"

@@ -114,7 +114,7 @@ rule collect:
     localrule: True
     params:
         study=STUDY,
-        digest=digest(dependencies.collect(study)),
+        digest=digest(dependencies.collect_slice(study)),
         source=FITS,
     message:
         "All repetitions gathered"

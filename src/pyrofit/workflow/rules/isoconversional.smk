@@ -25,7 +25,7 @@ if has_rates(study):
             benchmark_of("isoconversional")
         params:
             study=STUDY,
-            digest=digest(dependencies.isoconversional(study)),
+            digest=digest(dependencies.isoconversional_slice(study)),
             source=source_fingerprint("pyrofit.stages.isoconversional"),
         message:
             "Activation energy over conversion"

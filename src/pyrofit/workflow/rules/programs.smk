@@ -18,7 +18,7 @@ if PROGRAMS:
         threads: max(1, workflow.cores or 1)
         params:
             study=STUDY,
-            digest=digest(dependencies.trial(study)),
+            digest=digest(dependencies.trial_slice(study)),
             source=source_fingerprint("pyrofit.stages.trial"),
         message:
             "External programs: one timed run, and what the campaign costs"

@@ -23,7 +23,7 @@ rule predict:
     threads: RUNS_CORES
     params:
         study=STUDY,
-        digest=digest(dependencies.validation(study)),
+        digest=digest(dependencies.validation_slice(study)),
         experiments=" ".join(study.validation.experiments),
         source=source_fingerprint("pyrofit.stages.predict"),
     message:

@@ -3,7 +3,7 @@
 import pandas as pd
 
 from pyrofit.analysis.answer import one_each
-from pyrofit.analysis.estimates import Estimated, estimated
+from pyrofit.analysis.estimates import Estimated, estimates_of
 from pyrofit.config import Study
 from pyrofit.results import identification
 from pyrofit.results.files import Results
@@ -13,7 +13,7 @@ from pyrofit.show.table import Row, Table
 
 def answer(study: Study, results: Results) -> pd.DataFrame:
     """List value, 95 % interval and verdict by parameter, in its own unit; each has one row."""
-    found = one_each(study, estimated(study, identification.read(study, results)))
+    found = one_each(study, estimates_of(study, identification.read(study, results)))
     return pd.DataFrame([_row(study, e) for e in found])
 
 

@@ -13,7 +13,7 @@ NEAR_ONE = (0.5, 1.5)
 """Chi-square per point that is said to be near 1."""
 
 
-def described(study: Study, facts: Facts) -> Iterator[str]:
+def described_stages(study: Study, facts: Facts) -> Iterator[str]:
     """Yield for each stage its verdict and where it misses most, then the repeats that differ."""
     for stage, found in facts.goodness.items():
         text = verdict_words(STAGES[stage], found)

@@ -9,15 +9,15 @@ from pyrofit.results.files import Results
 from pyrofit.show import style
 from pyrofit.show.curves import (
     Pair,
-    curve_of,
+    curve_of_set,
     draw_band,
     label_axes,
-    label_of,
+    label_of_axis,
     measured_entries,
     predicted_curves,
     tests_of,
 )
-from pyrofit.show.drawn import Axes, Canvas, Look
+from pyrofit.show.drawn import Axes, Canvas, DrawStyle
 from pyrofit.show.facts import Facts
 from pyrofit.show.figure import Figure
 from pyrofit.show.units import shown
@@ -25,10 +25,10 @@ from pyrofit.show.verdicts import verdict_on
 
 _MOST = 2
 """Tests of each use that are shown."""
-_LINE: Look = {"color": style.ESTIMATES, "linewidth": 1.1}
+_LINE: DrawStyle = {"color": style.ESTIMATES, "linewidth": 1.1}
 
 
-def overview(study: Study, results: Results) -> Canvas:
+def draw_overview(study: Study, results: Results) -> Canvas:
     """Draw the first fitted and held-out tests with the estimates."""
     curves = predicted_curves(study, results)
     pairs = _pairs(study)
@@ -36,8 +36,8 @@ def overview(study: Study, results: Results) -> Canvas:
     uses = {FITTED: "fitted", HELD_OUT: "predicted"}
     style.letter(axes, [f"{uses[_use(study, pair)]}: {title_of(study, pair[0])}" for pair in pairs])
     for ax, pair in zip(axes, pairs, strict=True):
-        _draw(ax, study, results, pair, curve_of(curves, *pair, ESTIMATES))
-    label_axes(axes, [label_of(study, *pair) for pair in pairs])
+        _draw(ax, study, results, pair, curve_of_set(curves, *pair, ESTIMATES))
+    label_axes(axes, [label_of_axis(study, *pair) for pair in pairs])
     style.legend_below(
         canvas,
         [
@@ -58,7 +58,7 @@ def _draw(ax: Axes, study: Study, results: Results, pair: Pair, curve: pd.DataFr
     ax.plot(curve["time_s"], shown(quantity, curve["simulated"]), **_LINE)
 
 
-def verdict(study: Study, facts: Facts) -> str:
+def verdict_on_overview(study: Study, facts: Facts) -> str:
     """Say whether the model describes the fitted signals that are shown."""
     return verdict_on(study, facts, "imp", _pairs(study))
 
@@ -87,8 +87,8 @@ def _pairs(study: Study) -> list[Pair]:
 FIGURE = Figure(
     place=5,
     applies=lambda study: bool(_pairs(study)),
-    make=overview,
+    make=draw_overview,
     title="Measured, fitted and predicted",
     caption="The estimates beside the data. 'Predicted': nothing was fitted to this test.",
-    verdict=verdict,
+    verdict=verdict_on_overview,
 )

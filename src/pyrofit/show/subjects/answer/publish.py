@@ -10,7 +10,7 @@ from pyrofit.results.goodness import AS_DESCRIBED
 from pyrofit.results.kinetics import FITTED
 from pyrofit.show.apparatus import usual_errors
 from pyrofit.show.facts import Facts
-from pyrofit.show.names import STAGES, named
+from pyrofit.show.names import STAGES, named_estimate
 from pyrofit.show.text import listed, several
 
 SEEN = 0.05
@@ -58,7 +58,7 @@ def _by_verdict(ours: list[Estimated]) -> str:
         text = "The data determine no parameter."
     for told in ("at a limit", AS_DESCRIBED):
         groups.pop(told, None)
-    parts = [f"{grade}: {listed([named(e) for e in of])}" for grade, of in groups.items()]
+    parts = [f"{grade}: {listed([named_estimate(e) for e in of])}" for grade, of in groups.items()]
     if parts:
         text += f" {'; '.join(parts).capitalize()[:1]}{'; '.join(parts)[1:]}. {IN_BRACKETS}"
     loose = [e.name for e in ours if e.grade in ("weakly determined", "undetermined")]

@@ -3,7 +3,7 @@
 from pyrofit.config import Study
 from pyrofit.show.facts import Facts
 from pyrofit.show.parts import Question
-from pyrofit.show.subjects.answer.described import described
+from pyrofit.show.subjects.answer.described import described_stages
 from pyrofit.show.subjects.answer.next_steps import next_steps
 from pyrofit.show.subjects.answer.publish import publishable
 
@@ -11,7 +11,7 @@ from pyrofit.show.subjects.answer.publish import publishable
 def summary(study: Study, facts: Facts) -> list[Question]:
     """Return the questions with their answers; the table of values follows the second one."""
     return [
-        Question("Does the model describe the tests?", tuple(described(study, facts))),
+        Question("Does the model describe the tests?", tuple(described_stages(study, facts))),
         Question("Which values can I publish?", tuple(publishable(study, facts)), table=True),
         Question("What should I do next?", tuple(next_steps(study, facts))),
     ]

@@ -9,7 +9,7 @@ from pyrofit.analysis.uses import title_of
 from pyrofit.config import Study
 from pyrofit.quantities.base import Quantity
 from pyrofit.results import recorded
-from pyrofit.results.comparison import bands
+from pyrofit.results.comparison import read_bands_of_sets
 from pyrofit.results.files import Results, read_csv
 from pyrofit.show.table import Table
 from pyrofit.show.units import unit_cells
@@ -26,7 +26,7 @@ def width_of_bands(study: Study, results: Results) -> pd.DataFrame:
         mean over time, of rates in per cent of their measured mean. Within: per cent of the
         measured points inside the band, and inside the band widened by their stated uncertainty.
     """
-    frame = bands(study, results)
+    frame = read_bands_of_sets(study, results)
     met = read_csv(results.comparison("family.csv"), {"met": float}).groupby("cost_function")["met"]
     tried = met.first().astype(int).to_dict()
     pairs = frame[["experiment", "signal"]].drop_duplicates().itertuples(index=False)

@@ -5,7 +5,7 @@ from typing import Any
 import pandas as pd
 
 from pyrofit.analysis.best_sets import at_bound, best_sets
-from pyrofit.analysis.estimates import Estimated, estimated
+from pyrofit.analysis.estimates import Estimated, estimates_of
 from pyrofit.config import Study
 from pyrofit.estimate.optimisers import OPTIMISERS
 from pyrofit.results import identification, searches
@@ -13,7 +13,7 @@ from pyrofit.results.files import Results
 from pyrofit.show.table import Row, Table
 
 
-def table(study: Study, results: Results) -> pd.DataFrame:
+def best_sets_table(study: Study, results: Results) -> pd.DataFrame:
     """List the set of the lowest cost that any optimiser found, a column for each cost function.
 
     Returns
@@ -22,7 +22,9 @@ def table(study: Study, results: Results) -> pd.DataFrame:
         One row per parameter of the inverse modelling, in its own unit. ``outside`` names the cost
         functions whose value lies outside the interval, ``at_limit`` those that ended at a limit.
     """
-    known = [e for e in estimated(study, identification.read(study, results)) if e.stage == "imp"]
+    known = [
+        e for e in estimates_of(study, identification.read(study, results)) if e.stage == "imp"
+    ]
     best = best_sets(study, searches.read(study, results, OPTIMISERS)).to_dict("records")
     return pd.DataFrame([_row(study, e, best) for e in known])
 
@@ -43,7 +45,7 @@ def _row(study: Study, e: Estimated, best: list[dict[Any, Any]]) -> Row:
 
 TABLE = Table(
     place=5,
-    make=table,
+    make=best_sets_table,
     title="The best set of each cost function, and the intervals of the answer",
     note="Best sets: lowest cost of all optimisers that used this cost. Outside: cost functions "
     "whose value lies outside the 95 % interval of the estimate. Use the values of a set together.",

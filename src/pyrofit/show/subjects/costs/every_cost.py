@@ -4,7 +4,7 @@ import pandas as pd
 
 from pyrofit.analysis.uses import FITTED, title_of
 from pyrofit.config import Study
-from pyrofit.results.comparison import scores
+from pyrofit.results.comparison import read_all_scores
 from pyrofit.results.files import Results
 from pyrofit.show.table import Row, Table
 
@@ -18,7 +18,7 @@ def every_cost(study: Study, results: Results) -> pd.DataFrame:
         One row per place and best set; a column for each cost function of the study and each
         metric, empty where it cannot be computed.
     """
-    found = scores(results)
+    found = read_all_scores(results)
     best = found[found["best"]]
     rows: dict[tuple[str, str, str], Row] = {}
     for row in best.to_dict("records"):

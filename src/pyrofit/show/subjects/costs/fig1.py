@@ -14,7 +14,7 @@ from pyrofit.cost.distances import (
 from pyrofit.numerics import functions
 from pyrofit.results.files import Results
 from pyrofit.show import style
-from pyrofit.show.drawn import Axes, Canvas, Line2D, Look, Patch
+from pyrofit.show.drawn import Axes, Canvas, DrawStyle, Line2D, Patch
 from pyrofit.show.figure import Figure
 
 MEAN = {"normalisation": "mean"}
@@ -33,25 +33,25 @@ PLATEAU_S = (160.0, 440.0)
 """Window of BANDS in the weighted sum [s]."""
 
 
-_TARGET: Look = {"color": style.COLOURS[0], "linestyle": "-", "linewidth": 1.3}
+_TARGET: DrawStyle = {"color": style.COLOURS[0], "linestyle": "-", "linewidth": 1.3}
 
 
-_MODEL: Look = {"color": style.COLOURS[1], "linestyle": style.DASHES[1]}
+_MODEL: DrawStyle = {"color": style.COLOURS[1], "linestyle": style.DASHES[1]}
 
 
-_COUNTED: Look = {"facecolor": "#7FCEB9", "edgecolor": "#00664A", "linewidth": 0.0}
+_COUNTED: DrawStyle = {"facecolor": "#7FCEB9", "edgecolor": "#00664A", "linewidth": 0.0}
 
 
 _HATCH = "////"
 
 
-_BAR: Look = {"color": "#00664A", "linewidth": 2.4, "solid_capstyle": "butt"}
+_BAR: DrawStyle = {"color": "#00664A", "linewidth": 2.4, "solid_capstyle": "butt"}
 
 
-_AREA: Look = {"color": "#C5E0F0"}
+_AREA: DrawStyle = {"color": "#C5E0F0"}
 
 
-_LEVEL: Look = {"color": "0.3", "linewidth": 0.7, "linestyle": (0, (1, 1.5))}
+_LEVEL: DrawStyle = {"color": "0.3", "linewidth": 0.7, "linestyle": (0, (1, 1.5))}
 
 
 def example() -> tuple[Target, FloatArray]:

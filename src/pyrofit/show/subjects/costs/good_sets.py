@@ -10,16 +10,16 @@ from pyrofit.config import Study
 from pyrofit.quantities.base import Quantity
 from pyrofit.results import recorded
 from pyrofit.results.comparison import ALL
-from pyrofit.results.comparison import bands as band_curves
+from pyrofit.results.comparison import read_bands_of_sets as band_curves
 from pyrofit.results.files import Results
 from pyrofit.show import style
-from pyrofit.show.curves import draw_band, label_of
-from pyrofit.show.drawn import Axes, Canvas, Look
+from pyrofit.show.curves import draw_band, label_of_axis
+from pyrofit.show.drawn import Axes, Canvas, DrawStyle
 from pyrofit.show.figure import Figure
 from pyrofit.show.names import data_name
 from pyrofit.show.units import shown
 
-_BAND: Look = {"color": "#9ecae1", "linewidth": 0.0}
+_BAND: DrawStyle = {"color": "#9ecae1", "linewidth": 0.0}
 
 
 def good_sets(study: Study, results: Results) -> Canvas:
@@ -45,7 +45,7 @@ def good_sets(study: Study, results: Results) -> Canvas:
         )
         ax.set_xlim(left=0.0)
         ax.set_xlabel("time [s]")
-        ax.set_ylabel(label_of(study, name, signal))
+        ax.set_ylabel(label_of_axis(study, name, signal))
     data = data_name(study, [(name, signal) for name, signal in pairs])
     entries: list[Any] = [style.line(data, color=style.MEASURED, linewidth=0.7)]
     entries += [style.patch("stated uncertainty", color=style.BAND)] if stated else []

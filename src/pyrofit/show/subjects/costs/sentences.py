@@ -5,7 +5,7 @@ from typing import Any
 
 import pandas as pd
 
-from pyrofit.analysis.answer import Outside
+from pyrofit.analysis.answer import OutsideAnswer
 from pyrofit.analysis.best_predicting import best_predicting, never_fitted, of_answer
 from pyrofit.analysis.cost_tests import SIGNIFICANT
 from pyrofit.analysis.uses import PUBLISHED, rate_metrics
@@ -26,7 +26,7 @@ def sentences(study: Study, facts: Facts) -> list[str]:
     return [text for text in said if text]
 
 
-def _beside(one: Outside) -> str:
+def _beside(one: OutsideAnswer) -> str:
     """Say which values of a best set lie outside the intervals of the answer."""
     name = f"The best set of {one.cost_function} ({one.found_by})"
     if not one.values:

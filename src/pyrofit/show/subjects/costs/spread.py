@@ -13,7 +13,7 @@ from pyrofit.results import searches
 from pyrofit.results.files import Results
 from pyrofit.results.identification import estimates
 from pyrofit.show import style
-from pyrofit.show.drawn import Axes, Canvas, Look
+from pyrofit.show.drawn import Axes, Canvas, DrawStyle
 from pyrofit.show.figure import Figure
 from pyrofit.show.text import typeset
 
@@ -21,10 +21,10 @@ _WIDTH = 0.5
 """Width over which the repetitions of a cost function are laid out, in columns."""
 
 
-_POINTS: Look = {"linestyle": "none", "marker": ".", "markersize": 4.0, "alpha": 0.7}
+_POINTS: DrawStyle = {"linestyle": "none", "marker": ".", "markersize": 4.0, "alpha": 0.7}
 
 
-_BEST: dict[str, Look] = {
+_BEST: dict[str, DrawStyle] = {
     by.words: {
         "linestyle": "none",
         "marker": by.marker,
@@ -39,13 +39,13 @@ _BESIDE = {by: 0.33 + 0.09 * i for i, by in enumerate(STARTED)}
 """Places of the best sets beside the repetitions, in columns."""
 
 
-_TRUTH: Look = {"color": "black", "linewidth": 0.9, "linestyle": (0, (5, 2))}
+_TRUTH: DrawStyle = {"color": "black", "linewidth": 0.9, "linestyle": (0, (5, 2))}
 
 
-_PUBLISHED: Look = {"color": "black", "marker": "_", "markersize": 6.0, "linewidth": 0.8}
+_PUBLISHED: DrawStyle = {"color": "black", "marker": "_", "markersize": 6.0, "linewidth": 0.8}
 
 
-def spread(study: Study, results: Results) -> Canvas:
+def draw_spread(study: Study, results: Results) -> Canvas:
     """Draw all repetitions' sets by cost function within the limits, a panel per parameter."""
     names = list(study.imp.estimate)
     found = ends(study, searches.read(study, results, OPTIMISERS))
@@ -104,7 +104,7 @@ def _spread_entries(study: Study) -> list[Any]:
 
 FIGURE = Figure(
     place=50,
-    make=spread,
+    make=draw_spread,
     title="Where the sets of all repetitions lie",
     caption="Each dot is the best set of one repetition of SCE-UA, in their order from left "
     "to right. Beside them are the best sets of the other optimisers, to the left "

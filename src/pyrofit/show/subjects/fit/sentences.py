@@ -3,7 +3,7 @@
 import math
 from collections.abc import Sequence
 
-from pyrofit.analysis.repetitions import FIT, Repeated
+from pyrofit.analysis.repetitions import FIT, OverRepetitions
 from pyrofit.analysis.uses import fitted_experiments, title_of
 from pyrofit.config import Study
 from pyrofit.show.facts import Facts
@@ -27,7 +27,7 @@ def _data(study: Study) -> str:
     return f"{text}; held out: {held}." if held else f"{text}."
 
 
-def _lowest(study: Study, found: Sequence[Repeated]) -> str:
+def _lowest(study: Study, found: Sequence[OverRepetitions]) -> str:
     parts = []
     for one in (one for one in found if one.name == FIT):
         published = study.published.costs.get(one.cost_function, {}) if study.published else {}
@@ -36,7 +36,7 @@ def _lowest(study: Study, found: Sequence[Repeated]) -> str:
     return f"The lowest costs that SCE-UA found are {listed(parts)}."
 
 
-def _parameters(found: Sequence[Repeated]) -> str:
+def _parameters(found: Sequence[OverRepetitions]) -> str:
     bound = _costs_by_name([one for one in found if one.bound])
     wide = _costs_by_name([one for one in found if one.is_wide])
     if not bound and not wide:
@@ -47,7 +47,7 @@ def _parameters(found: Sequence[Repeated]) -> str:
     return f"Unreliable values in SCE-UA's best sets: {'; '.join(parts)}."
 
 
-def _costs_by_name(found: Sequence[Repeated]) -> str:
+def _costs_by_name(found: Sequence[OverRepetitions]) -> str:
     costs: dict[str, list[str]] = {}
     for one in found:
         costs.setdefault(one.name, []).append(one.cost_function)

@@ -2,8 +2,8 @@
 
 import pandas as pd
 
-from pyrofit.analysis.estimates import estimated
-from pyrofit.analysis.repetitions import FIT, Repeated, repeated
+from pyrofit.analysis.estimates import estimates_of
+from pyrofit.analysis.repetitions import FIT, OverRepetitions, repeated
 from pyrofit.config import Study
 from pyrofit.results import identification, searches
 from pyrofit.results.files import Results
@@ -22,15 +22,15 @@ def table4(study: Study, results: Results) -> pd.DataFrame:
     pandas.DataFrame
         One row per cost function and quantity ('fit' and each parameter, in its own unit).
     """
-    repetitions = repeated(study, searches.summary(study, results))
-    estimates = estimated(study, identification.read(study, results))
+    repetitions = repeated(study, searches.best_of_repetitions(study, results))
+    estimates = estimates_of(study, identification.read(study, results))
     by_data = {e.name: flag(e) for e in estimates if e.stage == "imp"}
     rows = [_row(study, found, by_data.get(found.name, "")) for found in repetitions]
     absent = [] if study.published else [f"published_{what}" for what in ("best", "mean", "sigma")]
     return pd.DataFrame(rows).drop(columns=absent)
 
 
-def _row(study: Study, found: Repeated, by_data: str) -> Row:
+def _row(study: Study, found: OverRepetitions, by_data: str) -> Row:
     published = {} if study.published is None else study.published.costs
     theirs = published.get(found.cost_function, {}).get(found.name, (None, None, None))
     return {
@@ -49,7 +49,7 @@ def _row(study: Study, found: Repeated, by_data: str) -> Row:
     }
 
 
-def flags(found: Repeated) -> str:
+def flags(found: OverRepetitions) -> str:
     """Say in words why an estimate is unreliable."""
     said = [f"at limit ({found.bound})"] if found.bound else []
     said += ["spread > 20 % of search range"] if found.is_wide else []

@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from pyrofit.analysis.estimates import Estimated, estimated
+from pyrofit.analysis.estimates import Estimated, estimates_of
 from pyrofit.config import Study
 from pyrofit.results import identification
 from pyrofit.results.files import Results
@@ -19,7 +19,7 @@ def determined(study: Study, results: Results) -> pd.DataFrame:
     freedom where that exceeds 1; ``noise_low``, ``noise_high``: as if noise were all.
     ``apparatus``: 1.96 standard deviations by usual errors of the apparatus.
     """
-    estimates = estimated(study, identification.read(study, results))
+    estimates = estimates_of(study, identification.read(study, results))
     return pd.DataFrame([_row(study, e) for e in estimates])
 
 

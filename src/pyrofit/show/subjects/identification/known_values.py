@@ -2,8 +2,8 @@
 
 import pandas as pd
 
-from pyrofit.analysis.estimates import estimated
-from pyrofit.analysis.known_values import Known, has_known, known_values
+from pyrofit.analysis.estimates import estimates_of
+from pyrofit.analysis.known_values import KnownBesideEstimate, has_known, known_values
 from pyrofit.config import Study
 from pyrofit.results import identification
 from pyrofit.results.files import Results
@@ -11,13 +11,13 @@ from pyrofit.show.names import STAGES
 from pyrofit.show.table import Row, Table
 
 
-def table(study: Study, results: Results) -> pd.DataFrame:
+def known_values_table(study: Study, results: Results) -> pd.DataFrame:
     """List known value, estimate and their distance of each parameter with a known value."""
-    estimates = estimated(study, identification.read(study, results))
+    estimates = estimates_of(study, identification.read(study, results))
     return pd.DataFrame([_row(known) for known in known_values(study, estimates)])
 
 
-def _row(known: Known) -> Row:
+def _row(known: KnownBesideEstimate) -> Row:
     estimate = known.estimate
     return {
         "fit": STAGES[estimate.stage],
@@ -37,7 +37,7 @@ def _row(known: Known) -> Row:
 TABLE = Table(
     place=15,
     applies=has_known,
-    make=table,
+    make=known_values_table,
     title="Known values and estimates",
     note="Known: mean and standard deviation (sd) given under `known`. They are data of the "
     "analysis of the likelihood; optimisers of costs search within 3 sd of the known value. "

@@ -8,32 +8,32 @@ import pandas as pd
 from pyrofit.config import Study
 from pyrofit.constants import QUANTILE
 from pyrofit.results.files import Results, read_csv
-from pyrofit.results.identification import estimates, noise
+from pyrofit.results.identification import estimates, read_noise
 from pyrofit.show import style
-from pyrofit.show.drawn import Axes, Canvas, Look
+from pyrofit.show.drawn import Axes, Canvas, DrawStyle
 from pyrofit.show.facts import Facts
 from pyrofit.show.figure import Figure
 from pyrofit.show.text import listed, typeset
 
-_PARABOLA: Look = {"color": "0.45", "linestyle": (0, (4, 2)), "linewidth": 1.0}
+_PARABOLA: DrawStyle = {"color": "0.45", "linestyle": (0, (4, 2)), "linewidth": 1.0}
 
 
-_PROFILE: Look = {"color": style.COLOURS[0], "marker": "o", "markersize": 2.4}
+_PROFILE: DrawStyle = {"color": style.COLOURS[0], "marker": "o", "markersize": 2.4}
 
 
-_LEVEL: Look = {"color": "black", "linewidth": 0.7}
+_LEVEL: DrawStyle = {"color": "black", "linewidth": 0.7}
 
 
-_NOISE_LEVEL: Look = {"color": "black", "linewidth": 0.9, "linestyle": (0, (1, 1.5))}
+_NOISE_LEVEL: DrawStyle = {"color": "black", "linewidth": 0.9, "linestyle": (0, (1, 1.5))}
 
 
-_LIMIT: Look = {"color": style.COLOURS[1], "linewidth": 1.6}
+_LIMIT: DrawStyle = {"color": style.COLOURS[1], "linewidth": 1.6}
 
 
-def profiles(study: Study, results: Results) -> Canvas:
+def draw_profiles_of_parameters(study: Study, results: Results) -> Canvas:
     """Draw the rise of chi-square against each parameter: parabola, profile, and 95 % levels."""
     found = estimates(study, results)
-    dispersion = noise(results).dispersion
+    dispersion = read_noise(results).dispersion
     curves = read_csv(results.identification("profiles.csv"))
     found = found[[_has_curve(row, curves) for _, row in found.iterrows()]]
     canvas, axes = style.panels(max(len(found), 1), 3, style.TWO_COLUMNS, 50.0)
@@ -79,7 +79,7 @@ def _draw_profile(
         fine = np.linspace(points[0], points[-1], 300)
         drawn = np.interp(fine, points, root)
         ax.plot(fine, drawn if straight else drawn**2, color=_PROFILE["color"])
-        unjoined: Look = {**_PROFILE, "linestyle": "none"}
+        unjoined: DrawStyle = {**_PROFILE, "linestyle": "none"}
         ax.plot(points, root if straight else root**2, **unjoined)
     ax.axhline(top, **_LEVEL)
     if dispersion > 1.0:
@@ -106,7 +106,7 @@ def _entries(dispersion: float) -> list[Any]:
     return entries
 
 
-def verdict(study: Study, facts: Facts) -> str:
+def verdict_on_profiles(study: Study, facts: Facts) -> str:
     """Say which intervals are those of profiles."""
     ours = [e for e in facts.estimates if e.stage == "imp"]
     at_limits = [e.name for e in ours if e.bound and e.method != "profile"]
@@ -121,8 +121,8 @@ def verdict(study: Study, facts: Facts) -> str:
 
 FIGURE = Figure(
     place=20,
-    make=profiles,
-    verdict=verdict,
+    make=draw_profiles_of_parameters,
+    verdict=verdict_on_profiles,
     title="Profiles of the likelihood",
     caption="Rise of χ² over its least value against each parameter. Where it follows its "
     "parabola to the 95 % level, the linear interval is quoted; else the profile, all other "

@@ -2,8 +2,8 @@
 
 import pandas as pd
 
-from pyrofit.analysis.estimates import estimated
-from pyrofit.analysis.repeats import Differing, Repeated, has_repeats, repeated
+from pyrofit.analysis.estimates import estimates_of
+from pyrofit.analysis.repeats import Differing, RepeatOfTest, has_repeats, repeats_of_tests
 from pyrofit.config import Study
 from pyrofit.config.expand.nuisances import NUISANCES
 from pyrofit.results import identification
@@ -12,7 +12,7 @@ from pyrofit.show.names import STAGES
 from pyrofit.show.table import Row, Table
 
 
-def table(study: Study, results: Results) -> pd.DataFrame:
+def repeats_table(study: Study, results: Results) -> pd.DataFrame:
     """List the repeats of every test with their signals and the values that differ.
 
     Returns
@@ -20,16 +20,16 @@ def table(study: Study, results: Results) -> pd.DataFrame:
     pandas.DataFrame
         One row per repeat and value that differs; one row for a repeat without any.
     """
-    estimates = estimated(study, identification.read(study, results))
+    estimates = estimates_of(study, identification.read(study, results))
     rows = [
         _row(study, repeat, one)
-        for repeat in repeated(study, estimates)
+        for repeat in repeats_of_tests(study, estimates)
         for one in repeat.differing or (None,)
     ]
     return pd.DataFrame(rows).dropna(axis="columns", how="all")
 
 
-def _row(study: Study, repeat: Repeated, one: Differing | None) -> Row:
+def _row(study: Study, repeat: RepeatOfTest, one: Differing | None) -> Row:
     words = study.experiments[repeat.name].words
     about: Row = {
         "test": repeat.test,
@@ -56,7 +56,7 @@ def _row(study: Study, repeat: Repeated, one: Differing | None) -> Row:
 TABLE = Table(
     place=16,
     applies=has_repeats,
-    make=table,
+    make=repeats_table,
     title="Repeats and their differences",
     note="Repeats are fitted together and never averaged. Stated sd: standard deviation between "
     "repeats, given under `repeats`. Distance: estimate minus the value of no difference, over "

@@ -4,12 +4,12 @@ import numpy as np
 
 from pyrofit.config import Study
 from pyrofit.results.files import Results, read_csv
-from pyrofit.results.identification import noise
+from pyrofit.results.identification import read_noise
 from pyrofit.show import style
 from pyrofit.show.curves import tests_of, title_of_test
 from pyrofit.show.drawn import Axes, Canvas
 from pyrofit.show.figure import Figure
-from pyrofit.show.subjects.identification.sentences import correlation
+from pyrofit.show.subjects.identification.sentences import strongest_correlation
 from pyrofit.show.units import difference, difference_unit
 from pyrofit.solver.arrays import FloatArray
 
@@ -22,7 +22,7 @@ def sensitivities(study: Study, results: Results) -> Canvas:
     words = dict.fromkeys(("experiment", "signal", "parameter"), object)
     columns = {**words, **dict.fromkeys(("time_s", "si"), float)}
     frame = read_csv(results.identification("sensitivities.csv"), columns)
-    channels = {(c.experiment, c.signal): c for c in noise(results).channels}
+    channels = {(c.experiment, c.signal): c for c in read_noise(results).channels}
     tests = tests_of(study, list(channels))
     signals = [channels[pairs[0]] for pairs in tests]
     canvas, axes = style.panels(len(signals), 2, style.TWO_COLUMNS, 72.0)
@@ -71,7 +71,7 @@ def _cut_spikes(ax: Axes, values: FloatArray) -> str:
 FIGURE = Figure(
     place=30,
     make=sensitivities,
-    verdict=lambda study, facts: correlation(facts.estimates),
+    verdict=lambda study, facts: strongest_correlation(facts.estimates),
     title="Sensitivity of the signals",
     caption="Change of each signal per distance of a parameter's limits, at the optimum. A "
     "curve within the noise (grey area) at all times tells little about its "

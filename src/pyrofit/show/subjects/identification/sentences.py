@@ -4,12 +4,12 @@ from collections.abc import Sequence
 from itertools import groupby
 
 from pyrofit.analysis.estimates import Estimated, by_grade
-from pyrofit.analysis.known_values import Known
+from pyrofit.analysis.known_values import KnownBesideEstimate
 from pyrofit.analysis.trade_offs import STRONG, TradeOff
 from pyrofit.config import Study
 from pyrofit.show.facts import Facts
 from pyrofit.show.goodness import goodness_sentences
-from pyrofit.show.names import STAGES, named
+from pyrofit.show.names import STAGES, named_estimate
 from pyrofit.show.text import listed, signed
 
 SHOWN_PAIRS = 5
@@ -26,7 +26,7 @@ def sentences(study: Study, facts: Facts) -> list[str]:
     return [*said, *_compensation(facts.trade_offs)]
 
 
-def _known(found: Sequence[Known]) -> list[str]:
+def _known(found: Sequence[KnownBesideEstimate]) -> list[str]:
     """Name the estimates that lie far from their known values."""
     if not found:
         return []
@@ -49,12 +49,14 @@ def verdicts(known: Sequence[Estimated]) -> str:
     parts = []
     for stage, members in groupby(known, key=lambda e: e.stage):
         grades = by_grade(list(members)).items()
-        said = ", ".join(f"{grade} {listed([named(e) for e in found])}" for grade, found in grades)
+        said = ", ".join(
+            f"{grade} {listed([named_estimate(e) for e in found])}" for grade, found in grades
+        )
         parts.append(f"of the {STAGES[stage]} {said}")
     return f"By the data (width of the 95 % interval, % of the search range): {'; '.join(parts)}."
 
 
-def correlation(known: Sequence[Estimated]) -> str:
+def strongest_correlation(known: Sequence[Estimated]) -> str:
     """Name the pair of the strongest correlation."""
     sizes = {e: e.correlation for e in known if e.correlation is not None}
     if not sizes:

@@ -12,7 +12,7 @@ from pyrofit.show.table import Table
 COLUMNS = ("fit", "parameter", "rise", "unit", "partner", "shift", "partner_unit", "correlation")
 
 
-def table(study: Study, results: Results) -> pd.DataFrame:
+def trade_offs_table(study: Study, results: Results) -> pd.DataFrame:
     """List pairs of parameters with strongly correlated estimates, the strongest first."""
     rows = [_row(pair) for pair in trade_offs(study, identification.read(study, results))]
     return pd.DataFrame(rows, columns=list(COLUMNS))
@@ -26,7 +26,7 @@ def _row(pair: TradeOff) -> tuple[object, ...]:
 
 TABLE = Table(
     place=12,
-    make=table,
+    make=trade_offs_table,
     title="Correlated estimates",
     note="If a parameter is raised by its standard deviation and all others are fitted "
     "anew, the best value of its partner moves by the shift. The simulated "

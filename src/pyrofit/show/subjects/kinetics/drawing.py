@@ -78,7 +78,7 @@ def dash_of(k: int) -> object:
     return ((0, (4, 1.5)), (0, (1, 1.2)), *style.DASHES[2:])[k % 6]
 
 
-def sets_of(study: Study, curves: pd.DataFrame, name: str) -> list[tuple[str, pd.DataFrame]]:
+def curves_of_sets(study: Study, curves: pd.DataFrame, name: str) -> list[tuple[str, pd.DataFrame]]:
     """Return label and curve of every set at an experiment."""
     here = curves[curves["experiment"] == name]
     return [(label, here[here["set"] == label]) for label in labels(study)]
@@ -93,7 +93,7 @@ def rate_of(study: Study, name: str) -> str:
     return f"{experiment.heating_rate_K_min:g} K/min"
 
 
-def together(names: Sequence[str], words: Callable[[str], str]) -> dict[str, list[str]]:
+def with_same_words(names: Sequence[str], words: Callable[[str], str]) -> dict[str, list[str]]:
     """Return the experiments that have the same words, such as a heating rate, in their order."""
     groups: dict[str, list[str]] = {}
     for name in names:
@@ -107,17 +107,17 @@ def busy_span(curves: pd.DataFrame) -> tuple[float, float]:
     start = mass.groupby([curves["experiment"], curves["set"]]).transform("first")
     end = mass.groupby([curves["experiment"], curves["set"]]).transform("last")
     busy = (mass < start - _NOTICEABLE) & (mass > end + _NOTICEABLE)
-    temperature = style.celsius(curves["temperature_K"])
+    temperature = style.axis_celsius(curves["temperature_K"])
     where = temperature[busy] if busy.any() else temperature
     low = max(float(temperature.min()), float(where.min()) - 30.0)
     return low, min(float(temperature.max()), float(where.max()) + 30.0)
 
 
-def draw_band(ax: Axes, measured: pd.DataFrame) -> None:
+def draw_mass_band(ax: Axes, measured: pd.DataFrame) -> None:
     """Shade measured mass ± uncertainty, where one is known."""
     if _UNCERTAINTY in measured:
         mass, width = (measured[c].to_numpy(float) for c in (MASS_FRACTION, _UNCERTAINTY))
-        temperature = style.celsius(measured["temperature_K"])
+        temperature = style.axis_celsius(measured["temperature_K"])
         low, high = mass - width, mass + width
         ax.fill_between(temperature, low, high, color=style.BAND, linewidth=0.0)
 

@@ -11,15 +11,15 @@ from pyrofit.show.drawn import Axes, Canvas
 from pyrofit.show.figure import Figure
 from pyrofit.show.subjects.kinetics.drawing import (
     busy_span,
+    curves_of_sets,
     dash_of,
     data_entries,
-    draw_band,
+    draw_mass_band,
     mass_series,
     rate_colour,
     rate_of,
-    sets_of,
     slope,
-    together,
+    with_same_words,
 )
 from pyrofit.show.verdicts import verdict_on
 from pyrofit.solver.outputs import MASS_FRACTION
@@ -27,17 +27,17 @@ from pyrofit.solver.outputs import MASS_FRACTION
 
 def fig2(study: Study, results: Results) -> Canvas:
     """Fig. 2: mass and mass loss rate of the TGA runs that were fitted, measured and simulated."""
-    curves = kinetics.curves(study, results, all_rates(study))
+    curves = kinetics.read_kinetic_curves(study, results, all_rates(study))
     names = rates_in_fit(study)
     canvas, (left, right) = style.panels(2, 2, style.TWO_COLUMNS, 82.0)
-    rates = together(names, lambda name: rate_of(study, name))
+    rates = with_same_words(names, lambda name: rate_of(study, name))
     for i, repeats in enumerate(rates.values()):
         for name in repeats:
             measured = mass_series(study, results, name)
-            draw_band(left, measured)
+            draw_mass_band(left, measured)
             _draw(left, right, measured, rate_colour(i), "-")
         for name in repeats:
-            for k, (_, curve) in enumerate(sets_of(study, curves, name)):
+            for k, (_, curve) in enumerate(curves_of_sets(study, curves, name)):
                 _draw(left, right, curve, rate_colour(i), dash_of(k))
     left.set_ylabel("normalised mass $m/m_0$ [–]")
     right.set_ylabel("mass loss rate / heating rate\n$-\\mathrm{d}(m/m_0)/\\mathrm{d}T$ [1/K]")
@@ -60,9 +60,9 @@ def _draw(left: Axes, right: Axes, curve: pd.DataFrame, colour: str, dash: objec
     # Measured lines are light, so that dashes on top of them are seen.
     look = {"color": colour, "linestyle": dash}
     look |= {"alpha": 0.45, "linewidth": 1.8} if dash == "-" else {"linewidth": 1.1}
-    left.plot(style.celsius(temperature), mass, **look)  # type: ignore[arg-type]
+    left.plot(style.axis_celsius(temperature), mass, **look)  # type: ignore[arg-type]
     grid, rate = slope(temperature, mass)
-    right.plot(style.celsius(grid), rate, **look)  # type: ignore[arg-type]
+    right.plot(style.axis_celsius(grid), rate, **look)  # type: ignore[arg-type]
 
 
 FIGURE = Figure(

@@ -19,7 +19,7 @@ def heat_scores(study: Study, results: Results) -> pd.DataFrame:
         One row per signal; columns ``quantity``, ``of``, ``unit``, ``used_in_fit``, ``fitted`` and
         one per published set.
     """
-    rows_of_file = kinetics.heat_scores(study, results).to_dict("records")
+    rows_of_file = kinetics.read_heat_scores(study, results).to_dict("records")
     scores = {(row["experiment"], row["signal"], row["set"]): row for row in rows_of_file}
     rows: list[Row] = []
     for name, signal in heats_shown(study):

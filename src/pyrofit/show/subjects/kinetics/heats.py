@@ -19,7 +19,7 @@ from pyrofit.solver.arrays import FloatArray
 COLUMNS = 2
 
 
-def heats(study: Study, results: Results) -> Canvas:
+def draw_heats(study: Study, results: Results) -> Canvas:
     """Draw each signal other than mass against temperature, one panel each; repeats share one."""
     tests = tests_of(study, heats_shown(study))
     curves = kinetics.heat_curves(study, results)
@@ -51,7 +51,7 @@ def _shown(values: pd.Series, quantity: Quantity) -> FloatArray:
 
 
 def _draw_measured(ax: Axes, measured: pd.DataFrame, quantity: Quantity, repeats: int) -> None:
-    temperature = style.celsius(measured["temperature_K"])
+    temperature = style.axis_celsius(measured["temperature_K"])
     values = _shown(measured[quantity.column], quantity)
     if quantity.uncertainty_column in measured:
         width = measured[quantity.uncertainty_column].to_numpy(float) * quantity.shown.factor
@@ -62,7 +62,7 @@ def _draw_measured(ax: Axes, measured: pd.DataFrame, quantity: Quantity, repeats
 
 def _draw(ax: Axes, curve: pd.DataFrame, values: FloatArray, k: int) -> None:
     look = {"color": style.colour(k), "linestyle": dash_of(k)}
-    ax.plot(style.celsius(curve["temperature_K"]), values, **look)  # type: ignore[arg-type]
+    ax.plot(style.axis_celsius(curve["temperature_K"]), values, **look)  # type: ignore[arg-type]
 
 
 def _heading(study: Study, name: str, signal: str) -> str:
@@ -89,7 +89,7 @@ def _entries(study: Study, stated: bool) -> list[Line2D | Patch]:
 FIGURE = Figure(
     place=40,
     applies=lambda study: bool(heats_shown(study)),
-    make=heats,
+    make=draw_heats,
     verdict=lambda study, facts: verdict_on(study, facts, "kinetics", heats_shown(study)),
     title="Heat flow and heat release of heated samples",
     caption="Heat flow (DSC, positive where heat is taken up) or heat release rate (MCC) per "

@@ -13,13 +13,13 @@ from pyrofit.show.drawn import Axes, Canvas
 from pyrofit.show.figure import Figure
 from pyrofit.show.subjects.kinetics.drawing import (
     busy_span,
+    curves_of_sets,
     dash_of,
     data_entries,
-    draw_band,
+    draw_mass_band,
     mass_series,
     rate_of,
-    sets_of,
-    together,
+    with_same_words,
 )
 from pyrofit.show.verdicts import verdict_on
 from pyrofit.solver.outputs import MASS_FRACTION
@@ -27,21 +27,21 @@ from pyrofit.solver.outputs import MASS_FRACTION
 
 def kinetics_all_rates(study: Study, results: Results) -> Canvas:
     """Draw mass against temperature at every heating rate, one panel each; repeats share one."""
-    curves = kinetics.curves(study, results, all_rates(study))
+    curves = kinetics.read_kinetic_curves(study, results, all_rates(study))
     names = all_rates(study)
     used = set(rates_in_fit(study))
-    panels = together(names, lambda n: _title(study, n) + (", in fit" if n in used else ""))
+    panels = with_same_words(names, lambda n: _title(study, n) + (", in fit" if n in used else ""))
     height = 52.0 if len(panels) > 3 else 70.0
     canvas, axes = style.panels(len(panels), 4, style.TWO_COLUMNS, height, sharex=True, sharey=True)
     for ax, repeats in zip(axes, panels.values(), strict=True):
         for name in repeats:
             measured = mass_series(study, results, name)
-            draw_band(ax, measured)
-            temperature = style.celsius(measured["temperature_K"])
+            draw_mass_band(ax, measured)
+            temperature = style.axis_celsius(measured["temperature_K"])
             look = {"color": "0.6", "linewidth": 2.0 if len(repeats) == 1 else 1.0}
             ax.plot(temperature, measured[MASS_FRACTION], **look)  # type: ignore[arg-type]
         for name in repeats:
-            _draw_sets(ax, sets_of(study, curves, name))
+            _draw_sets(ax, curves_of_sets(study, curves, name))
         ax.set_xlim(*busy_span(curves))
     style.letter(axes, list(panels))
     for i, ax in enumerate(axes):
@@ -60,7 +60,7 @@ def kinetics_all_rates(study: Study, results: Results) -> Canvas:
 
 def _draw_sets(ax: Axes, sets: Sequence[tuple[str, pd.DataFrame]]) -> None:
     for k, (_, curve) in enumerate(sets):
-        temperature = style.celsius(curve["temperature_K"])
+        temperature = style.axis_celsius(curve["temperature_K"])
         ax.plot(temperature, curve[MASS_FRACTION], color=style.colour(k), linestyle=dash_of(k))
 
 

@@ -31,7 +31,7 @@ def table3(study: Study, results: Results) -> pd.DataFrame:
         ``used_in_fit`` (for the heating rates), ``fitted`` (the estimates) and one per published
         set. A study with published values has the set of the lowest cost, too, and that cost.
     """
-    sets = kinetics.sets(study, results)
+    sets = kinetics.kinetic_sets(study, results)
     rows: list[Row] = [
         {
             "quantity": quantity,
@@ -44,14 +44,14 @@ def table3(study: Study, results: Results) -> pd.DataFrame:
         if study.published or unit != _PAPER_UNIT
     ]
     if kinetics.LOWEST in sets:
-        cost = {kinetics.LOWEST: kinetics.fit(study, results).cost}
+        cost = {kinetics.LOWEST: kinetics.read_fit(study, results).cost}
         rows.append({"quantity": "cost", "of": "fit", "unit": "-", **cost})
     rows += _scores(study, results, list(sets))
     return pd.DataFrame(rows, columns=["quantity", "of", "unit", "used_in_fit", *sets])
 
 
 def _scores(study: Study, results: Results, sets: list[str]) -> list[Row]:
-    scores = kinetics.scores(study, results, all_rates(study))
+    scores = kinetics.read_kinetic_scores(study, results, all_rates(study))
     scores = scores.set_index(["experiment", "set"])
     used = set(rates_in_fit(study))
     return [

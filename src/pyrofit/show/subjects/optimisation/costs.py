@@ -10,7 +10,7 @@ from pyrofit.results.files import Results
 from pyrofit.show.table import Table
 
 
-def costs(study: Study, results: Results) -> pd.DataFrame:
+def optimisers_by_cost(study: Study, results: Results) -> pd.DataFrame:
     """Compare SCE-UA with the optimisers that go from several starts on the same costs.
 
     Returns
@@ -44,7 +44,7 @@ _HEADINGS = {
 
 TABLE = Table(
     place=10,
-    make=costs,
+    make=optimisers_by_cost,
     title="Optimisers compared on the same costs",
     note="Model calls are those of all repetitions, and of all starts. The ratio is the "
     "lowest cost of the others over the best of SCE-UA. 'From SCE-UA's best': end of "

@@ -11,7 +11,7 @@ from pyrofit.results.files import Results
 from pyrofit.show.table import Table
 
 
-def table(study: Study, results: Results) -> pd.DataFrame:
+def distances_table(study: Study, results: Results) -> pd.DataFrame:
     """List how far the optimisers' sets are from the optimum of the likelihood.
 
     Distances are in standard deviations of the parameter, chi-square per degree of freedom.
@@ -22,7 +22,7 @@ def table(study: Study, results: Results) -> pd.DataFrame:
 
 TABLE = Table(
     place=60,
-    make=table,
+    make=distances_table,
     title="The optimisers' sets beside the optimum of the likelihood",
     note="The optimum weighs each point by its noise, the costs do not: their own minima, "
     "found by least squares, differ from it as well. At a limit, distances in standard deviations "

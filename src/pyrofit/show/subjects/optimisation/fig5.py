@@ -5,22 +5,22 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from pyrofit.analysis.running import running_minima
+from pyrofit.analysis.running import minima_on_one_axis
 from pyrofit.config import Study
 from pyrofit.results import searches
 from pyrofit.results.files import Results
 from pyrofit.show import style
-from pyrofit.show.drawn import Axes, Canvas, Look
+from pyrofit.show.drawn import Axes, Canvas, DrawStyle
 from pyrofit.show.figure import Figure
 
 ACROSS = 3
 """Cost functions side by side."""
 
 
-_LS: Look = {"color": "black", "linestyle": (0, (5, 2)), "linewidth": 0.9}
+_LS: DrawStyle = {"color": "black", "linestyle": (0, (5, 2)), "linewidth": 0.9}
 
 
-_PUBLISHED: Look = {"color": "black", "linestyle": (0, (1, 1.5)), "linewidth": 1.1}
+_PUBLISHED: DrawStyle = {"color": "black", "linestyle": (0, (1, 1.5)), "linewidth": 1.1}
 
 
 def fig5(study: Study, results: Results) -> Canvas:
@@ -51,17 +51,17 @@ def _draw(
 ) -> None:
     from matplotlib.ticker import MaxNLocator
 
-    grid, found = running_minima(frame, abscissa)
+    grid, found = minima_on_one_axis(frame, abscissa)
     by_calls = abscissa == "calls"
     look = style.cost_styles(study)[cost]
-    area: Look = {"step": "post"} if by_calls else {}
+    area: DrawStyle = {"step": "post"} if by_calls else {}
     low, high = found.min(axis=0), found.max(axis=0)
     ax.fill_between(grid, low, high, color=look["color"], alpha=0.3, linewidth=0.0, **area)
     # A band of no width, where all repetitions agree, would not be seen.
     for edge in (low, high):
         ax.plot(grid, edge, color=look["color"], linewidth=0.4, **_steps(by_calls))
     ax.plot(grid, np.median(found, axis=0), color=look["color"], **_steps(by_calls))
-    best = min(start.cost for start in searches.starts(study, results, cost, "least_squares"))
+    best = min(start.cost for start in searches.read_starts(study, results, cost, "least_squares"))
     levels = [best]
     ax.axhline(best, **_LS)
     theirs = published_mean(study, cost)
@@ -82,7 +82,7 @@ def published_mean(study: Study, cost: str) -> float | None:
     return None if fit is None else fit[1]
 
 
-def _steps(by_calls: bool) -> Look:
+def _steps(by_calls: bool) -> DrawStyle:
     return {"drawstyle": "steps-post"} if by_calls else {}
 
 

@@ -14,10 +14,10 @@ FOUND_BY = {"sceua": SCEUA, **{key: by.words for key, by in OPTIMISERS.items()}}
 
 def sentences(study: Study, facts: Facts) -> list[str]:
     """Return the sentences of the section."""
-    return errors(facts.tables["truth"])
+    return errors_of_sets(facts.tables["truth"])
 
 
-def errors(table: pd.DataFrame) -> list[str]:
+def errors_of_sets(table: pd.DataFrame) -> list[str]:
     """Return a sentence on the best sets of each optimiser, and one on the kinetics.
 
     Parameters
@@ -29,7 +29,7 @@ def errors(table: pd.DataFrame) -> list[str]:
     --------
     >>> columns = {f"{by}_error_limits_percent": [-12.0, 0.5] for by in FOUND_BY}
     >>> frame = pd.DataFrame({"fit": "RMSE", "parameter": ["k", "rho"], **columns})
-    >>> errors(frame)[1].split(": ")[1]
+    >>> errors_of_sets(frame)[1].split(": ")[1]
     '12 % in k, at most 0.5 % in the others (RMSE).'
     """
     costs = table[table["fit"] != KINETICS]

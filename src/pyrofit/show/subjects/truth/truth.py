@@ -1,6 +1,6 @@
 """Truth beside estimate."""
 
-from pyrofit.analysis.recovery import known, truth
+from pyrofit.analysis.recovery import fits_to_computed, truth
 from pyrofit.show.subjects.truth.sentences import FOUND_BY
 from pyrofit.show.table import Table
 
@@ -16,7 +16,7 @@ _HEADINGS = {
 
 TABLE = Table(
     place=10,
-    applies=lambda study: bool(known(study)),
+    applies=lambda study: bool(fits_to_computed(study)),
     make=truth,
     title="Truth and the best sets",
     note="Errors are estimate minus truth, in per cent of the truth and of the "

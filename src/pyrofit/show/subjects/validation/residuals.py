@@ -1,16 +1,16 @@
 """Residuals of the predicted rates."""
 
-from pyrofit.analysis.running import running_mean
+from pyrofit.analysis.running import smoothed
 from pyrofit.analysis.uses import PUBLISHED, predicted_signals
 from pyrofit.config import Study
 from pyrofit.results import recorded
 from pyrofit.results.files import Results
 from pyrofit.show import style
 from pyrofit.show.curves import (
-    curve_of,
+    curve_of_set,
     draw_band,
     label_axes,
-    label_of,
+    label_of_axis,
     look_of,
     measured_entries,
     panels_of,
@@ -18,14 +18,14 @@ from pyrofit.show.curves import (
     set_entries,
     sets_beside_data,
 )
-from pyrofit.show.drawn import Canvas, Look
+from pyrofit.show.drawn import Canvas, DrawStyle
 from pyrofit.show.figure import Figure
 from pyrofit.show.names import data_name
 from pyrofit.show.units import difference
 from pyrofit.show.verdicts import verdict_on
 
 
-def residuals(study: Study, results: Results) -> Canvas:
+def draw_residuals_over_time(study: Study, results: Results) -> Canvas:
     """Draw simulated minus measured rates over time, with the uncertainty about zero."""
     pairs = predicted_signals(study, relative=True)
     canvas, axes = panels_of(study, pairs)
@@ -36,14 +36,14 @@ def residuals(study: Study, results: Results) -> Canvas:
         draw_band(ax, recorded.series(study, results, name, signal), quantity, about_zero=True)
         style.zero_line(ax)
         for chosen in sets:
-            curve = curve_of(curves, name, signal, chosen.label)
+            curve = curve_of_set(curves, name, signal, chosen.label)
             off = curve["simulated"] - curve["measured"]
             look = look_of(study, chosen)
-            points: Look = {"color": look["color"], "linewidth": 0.4, "alpha": 0.4}
+            points: DrawStyle = {"color": look["color"], "linewidth": 0.4, "alpha": 0.4}
             ax.plot(curve["time_s"], difference(quantity, off), **points)
-            ax.plot(curve["time_s"], difference(quantity, running_mean(off)), **look)
+            ax.plot(curve["time_s"], difference(quantity, smoothed(off)), **look)
     data = data_name(study, pairs)
-    label_axes(axes, [f"simulated − {data}\n{label_of(study, *pair)}" for pair in pairs])
+    label_axes(axes, [f"simulated − {data}\n{label_of_axis(study, *pair)}" for pair in pairs])
     entries = measured_entries(study, results, pairs, with_line=False)
     style.legend_below(canvas, [*entries, *set_entries(study, sets)])
     return canvas
@@ -52,7 +52,7 @@ def residuals(study: Study, results: Results) -> Canvas:
 FIGURE = Figure(
     place=20,
     applies=lambda study: bool(predicted_signals(study, relative=True)),
-    make=residuals,
+    make=draw_residuals_over_time,
     verdict=lambda study, facts: verdict_on(
         study, facts, "imp", predicted_signals(study, relative=True)
     ),

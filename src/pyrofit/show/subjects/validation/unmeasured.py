@@ -7,13 +7,13 @@ from pyrofit.quantities import known_quantities
 from pyrofit.results import prediction
 from pyrofit.results.files import Results
 from pyrofit.show import style
-from pyrofit.show.curves import curve_of, label_axes, look_of, panels_of, set_entries
+from pyrofit.show.curves import curve_of_set, label_axes, look_of, panels_of, set_entries
 from pyrofit.show.drawn import Canvas
 from pyrofit.show.figure import Figure
 from pyrofit.show.units import shown
 
 
-def predictions(study: Study, results: Results) -> Canvas:
+def draw_predictions(study: Study, results: Results) -> Canvas:
     """Draw the predicted curves of every set, one panel per experiment and quantity."""
     pairs = [(name, q) for name, quantities in unmeasured(study).items() for q in quantities]
     canvas, axes = panels_of(study, pairs)
@@ -22,7 +22,7 @@ def predictions(study: Study, results: Results) -> Canvas:
     curves = prediction.unmeasured_curves(study, results, [chosen.label for chosen in sets])
     for ax, (name, quantity) in zip(axes, pairs, strict=True):
         for chosen in drawn:
-            curve = curve_of(curves, name, quantity, chosen.label)
+            curve = curve_of_set(curves, name, quantity, chosen.label)
             values = shown(known_quantities()[quantity], curve["simulated"])
             ax.plot(curve["time_s"], values, **look_of(study, chosen))
     label_axes(axes, [known_quantities()[quantity].label for _, quantity in pairs])
@@ -33,7 +33,7 @@ def predictions(study: Study, results: Results) -> Canvas:
 FIGURE = Figure(
     place=60,
     applies=lambda study: bool(unmeasured(study)),
-    make=predictions,
+    make=draw_predictions,
     title="Predictions without a measurement",
     caption="The estimates, and the best sets of all cost functions and optimisers at experiments "
     "that nobody measured. The distance between the curves shows how much the choice of a set "

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import pandas as pd
 
-from pyrofit.analysis.scores import Score, scores
+from pyrofit.analysis.scores import Score, scores_of_sets
 from pyrofit.analysis.uses import predicted_labels
 from pyrofit.config import Study
 from pyrofit.quantities.base import Quantity
@@ -24,7 +24,7 @@ def validation(study: Study, results: Results) -> pd.DataFrame:
         the signal or predicts it. ``solver_...`` is the solver's own error, estimated by
         refinement, in the same measure.
     """
-    found = scores(study, prediction.scores(study, results, predicted_labels(study)))
+    found = scores_of_sets(study, prediction.read_scores(study, results, predicted_labels(study)))
     among = [score.quantity for score in found]
     return pd.DataFrame([_row(score, among) for score in found])
 

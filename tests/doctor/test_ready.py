@@ -13,13 +13,13 @@ import pytest
 
 from pyrofit import cli
 from pyrofit.config import Study, read_study
+from pyrofit.doctor import machine, plan, report, slurm, timing
+from pyrofit.doctor.data import check_data
+from pyrofit.doctor.finding import Check, ReadyLine, Situation
+from pyrofit.doctor.timing import Timed, duration, estimate_of
+from pyrofit.doctor.whole_run import PartOfRun, processor_s
 from pyrofit.estimate.calls import optimiser_calls, sceua_calls
 from pyrofit.estimate.problem import Evaluation
-from pyrofit.ready import machine, plan, report, slurm, timing
-from pyrofit.ready.data import data
-from pyrofit.ready.finding import Check, Finding, Situation
-from pyrofit.ready.timing import Timed, duration, estimate_of
-from pyrofit.ready.whole_run import Work, processor_s
 from pyrofit.solver.arrays import Status
 
 ROOT = Path(__file__).parents[2]
@@ -34,7 +34,7 @@ def smoke() -> Study:
     return read_study(SMOKE)
 
 
-def only(check: Check, situation: Situation) -> Finding:
+def only(check: Check, situation: Situation) -> ReadyLine:
     (finding,) = check(situation)
     return finding
 
@@ -49,13 +49,13 @@ def program(folder: Path, name: str, text: str, monkeypatch: pytest.MonkeyPatch)
 
 def test_package_that_is_not_installed_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(machine, "PACKAGES", ("numpy", "no-such-package"))
-    found = next(machine.versions(Situation(None, Path(), 1, ROOT)))
+    found = next(machine.check_versions(Situation(None, Path(), 1, ROOT)))
     assert found.level == "error"
     assert "no-such-package is not installed; `make .venv/installed`" in found.text
 
 
 def test_installed_package_has_no_locked_versions(tmp_path: Path) -> None:
-    found = only(machine.versions, Situation(None, Path(), 1, tmp_path))
+    found = only(machine.check_versions, Situation(None, Path(), 1, tmp_path))
     assert found.level == "ok"
     assert "packages as installed, not as locked" in found.text
 
@@ -67,12 +67,12 @@ def test_other_version_than_the_locked_one_is_a_warning(
     (tmp_path / "requirements.lock").write_text("numpy==0.1 ; python_version < '3'\n")
     monkeypatch.setattr(machine, "PACKAGES", ("numpy",))
     situation = Situation(None, Path(), 1, tmp_path)
-    found = only(machine.versions, situation)
+    found = only(machine.check_versions, situation)
     assert found.level == "warning"
     assert f"numpy {here} (locked: 0.1)" in found.text
     with (tmp_path / "requirements.lock").open("a") as lock:
         lock.write(f"numpy=={here} ; python_version >= '3'\n")
-    assert only(machine.versions, situation).level == "ok"
+    assert only(machine.check_versions, situation).level == "ok"
 
 
 def test_cache_that_cannot_be_written_is_an_error(
@@ -91,10 +91,10 @@ def test_cache_that_cannot_be_written_is_an_error(
 
 def test_more_jobs_than_cores_are_a_warning(smoke: Study, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(machine, "available_cores", lambda: 4)
-    found = only(machine.cores, Situation(smoke, Path(), 9))
+    found = only(machine.check_cores, Situation(smoke, Path(), 9))
     assert (found.level, found.text.endswith("use --cores 4")) == ("warning", True)
-    assert only(machine.cores, Situation(smoke, Path(), 4)).level == "ok"
-    assert only(machine.cores, Situation(smoke, Path(), 9, profile=SLURM)).level == "ok"
+    assert only(machine.check_cores, Situation(smoke, Path(), 4)).level == "ok"
+    assert only(machine.check_cores, Situation(smoke, Path(), 9, profile=SLURM)).level == "ok"
 
 
 def test_too_little_memory_is_an_error_with_the_cores_that_fit(
@@ -132,14 +132,14 @@ def test_missing_measured_files_are_an_error(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("PYROFIT_DATA_DIR", str(tmp_path))
-    found = only(data, Situation(read_study(PMMA), tmp_path, 1))
+    found = only(check_data, Situation(read_study(PMMA), tmp_path, 1))
     assert found.level == "error"
     assert "more files of the MaCFP data base are not there; get them with `make data`" in (
         found.text
     )
-    assert only(data, Situation(None, tmp_path, 1)).level == "warning"
+    assert only(check_data, Situation(None, tmp_path, 1)).level == "warning"
     monkeypatch.setenv("PYROFIT_DATA_DIR", str(tmp_path / "nowhere"))
-    assert only(data, Situation(None, tmp_path, 1)).level == "error"
+    assert only(check_data, Situation(None, tmp_path, 1)).level == "error"
 
 
 def test_wrong_checksum_is_an_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -148,14 +148,14 @@ def test_wrong_checksum_is_an_error(tmp_path: Path, monkeypatch: pytest.MonkeyPa
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text("Time,Mass\n")
     monkeypatch.setenv("PYROFIT_DATA_DIR", str(tmp_path))
-    found = only(data, Situation(study, tmp_path, 1))
+    found = only(check_data, Situation(study, tmp_path, 1))
     assert found.level == "error"
     assert "is registered: the file was altered. Delete it and put" in found.text
 
 
 @pytest.mark.measured
 def test_right_measured_files_are_ok() -> None:
-    found = only(data, Situation(read_study(PMMA), Path(), 1))
+    found = only(check_data, Situation(read_study(PMMA), Path(), 1))
     assert found.level == "ok"
     assert "files of the MaCFP data base are right" in found.text
 
@@ -253,8 +253,8 @@ def test_jobs_are_grouped_as_the_workflow_groups_them(
 
 
 def test_duration_is_that_of_steps_alone_and_of_the_others_over_cores() -> None:
-    part = plan.Part("RMSE", alone=1000.0, together=3000.0, jobs=10, exact=200.0)
-    beside = [Work(7.0, alone=True), Work(4.0, jobs=2)]
+    part = plan.PartOfSearches("RMSE", alone=1000.0, together=3000.0, jobs=10, exact=200.0)
+    beside = [PartOfRun(7.0, alone=True), PartOfRun(4.0, jobs=2)]
     fit = Timed(part, alone=0.02, together=0.01, exact=0.05)
     found = estimate_of(Situation(None, Path(), 2), [fit], beside, 3.0)
     assert found.level == "ok"
@@ -269,7 +269,7 @@ def test_duration_is_that_of_steps_alone_and_of_the_others_over_cores() -> None:
 
 
 def test_duration_tells_how_much_longer_it_is_beside_other_work() -> None:
-    fit = Timed(plan.Part("RMSE", alone=0.0, together=6000.0, jobs=2), 0.01, 0.01, 0.01)
+    fit = Timed(plan.PartOfSearches("RMSE", alone=0.0, together=6000.0, jobs=2), 0.01, 0.01, 0.01)
     situation = Situation(None, Path(), 2)
     told = {slower: estimate_of(situation, [fit], [], 0.0, slower).text for slower in (1.1, 4.0)}
     assert told[1.1].startswith("about 60 s for the run on 2 cores. 6,000")
@@ -285,7 +285,7 @@ def test_processor_time_counts_own_and_started_work_only() -> None:
 
 
 def test_searches_are_timed_with_their_coarser_runs(monkeypatch: pytest.MonkeyPatch) -> None:
-    part = plan.Part("RMSE", alone=1.0, together=1.0, jobs=1, exact=1.0)
+    part = plan.PartOfSearches("RMSE", alone=1.0, together=1.0, jobs=1, exact=1.0)
     times = {"own": (8.0, 4.0), "coarser": (2.0, 1.0)}
     monkeypatch.setattr(timing, "seconds", times.__getitem__)
     monkeypatch.setattr(timing, "for_search", lambda problem: "coarser")
@@ -308,12 +308,12 @@ def test_external_programs_are_left_to_the_trial() -> None:
     assert "`pyrofit trial --study" in found.text
 
 
-def good(situation: Situation) -> Iterator[Finding]:
-    yield Finding("ok", "some", "thing")
+def good(situation: Situation) -> Iterator[ReadyLine]:
+    yield ReadyLine("ok", "some", "thing")
 
 
-def bad(situation: Situation) -> Iterator[Finding]:
-    yield Finding("error", "other", "thing")
+def bad(situation: Situation) -> Iterator[ReadyLine]:
+    yield ReadyLine("error", "other", "thing")
 
 
 def test_status_is_1_on_an_error_alone(
@@ -342,7 +342,7 @@ def test_profile_gives_the_jobs_at_once(
 ) -> None:
     seen: list[Situation] = []
 
-    def look(situation: Situation) -> Iterator[Finding]:
+    def look(situation: Situation) -> Iterator[ReadyLine]:
         seen.append(situation)
         return iter(())
 

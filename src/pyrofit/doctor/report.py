@@ -5,22 +5,31 @@ from pathlib import Path
 from typing import Any
 
 from pyrofit.config import read_mapping, read_study
+from pyrofit.doctor.data import check_data
+from pyrofit.doctor.finding import Check, ReadyLine, Situation
+from pyrofit.doctor.machine import available_cores, cache, check_cores, check_versions, disk, memory
+from pyrofit.doctor.slurm import slurm
+from pyrofit.doctor.timing import duration
 from pyrofit.errors import PyrofitError, StudyError
-from pyrofit.ready.data import data
-from pyrofit.ready.finding import Check, Finding, Situation
-from pyrofit.ready.machine import available_cores, cache, cores, disk, memory, versions
-from pyrofit.ready.slurm import slurm
-from pyrofit.ready.timing import duration
 from pyrofit.running.targets import WORKFLOW
 
-CHECKS: list[Check] = [versions, cache, cores, memory, disk, data, slurm, duration]
+CHECKS: list[Check] = [
+    check_versions,
+    cache,
+    check_cores,
+    memory,
+    disk,
+    check_data,
+    slurm,
+    duration,
+]
 USUAL = Path("profiles/default/config.yaml")
 """The profile that is taken if none is named, of the project or of the package."""
 
 
-def findings(
+def check_all(
     source: Path | None, results: Path | None, cores: int | None, profile: Path | None
-) -> Iterator[Finding]:
+) -> Iterator[ReadyLine]:
     """Yield the findings of all checks.
 
     Parameters
@@ -43,9 +52,9 @@ def findings(
     if source is not None:
         try:
             study = read_study(source)
-            yield Finding("ok", "study", f"'{study.name}' is valid")
+            yield ReadyLine("ok", "study", f"'{study.name}' is valid")
         except PyrofitError as error:
-            yield Finding("error", "study", str(error))
+            yield ReadyLine("error", "study", str(error))
     keys = _profile(profile)
     at_once = cores or keys.get("jobs") or keys.get("cores") or available_cores()
     if not isinstance(at_once, int):

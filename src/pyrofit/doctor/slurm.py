@@ -6,13 +6,13 @@ import subprocess
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from pyrofit.ready.finding import Finding, Level, Situation
+from pyrofit.doctor.finding import Level, ReadyLine, Situation
 
 PLUGIN = "snakemake-executor-plugin-slurm"
 LONGEST_ANSWER_S = 20.0
 
 
-def slurm(situation: Situation) -> Iterator[Finding]:
+def slurm(situation: Situation) -> Iterator[ReadyLine]:
     """Ask `sinfo`; yield nothing if neither a Slurm profile is used nor Slurm is installed."""
     used, program = situation.on_slurm, shutil.which("sinfo")
     if not used and program is None:
@@ -20,7 +20,7 @@ def slurm(situation: Situation) -> Iterator[Finding]:
     wrong: Level = "error" if used else "warning"
     if program is None:
         text = "the profile is for Slurm, but there is no `sinfo`; run on a login node"
-        yield Finding("error", "slurm", text)
+        yield ReadyLine("error", "slurm", text)
         return
     try:
         there = _partitions(program)
@@ -29,26 +29,26 @@ def slurm(situation: Situation) -> Iterator[Finding]:
             f"Slurm does not answer ({_reason(error)}); run on a login node, or ask your "
             "administrators"
         )
-        yield Finding(wrong, "slurm", text)
+        yield ReadyLine(wrong, "slurm", text)
         return
     wanted = partition_of(situation.profile)
     if not used:
         text = f"reachable; --profile profiles/slurm checks its partition ({', '.join(there)})"
-        yield Finding("ok", "slurm", text)
+        yield ReadyLine("ok", "slurm", text)
     elif wanted is not None and wanted not in there:
         text = f"there is no partition '{wanted}'; set slurm_partition to one of {', '.join(there)}"
-        yield Finding("error", "slurm", text)
+        yield ReadyLine("error", "slurm", text)
     else:
-        yield Finding("ok", "slurm", f"reachable, partition {wanted or 'by default'}")
+        yield ReadyLine("ok", "slurm", f"reachable, partition {wanted or 'by default'}")
     if used:
         yield _plugin()
 
 
-def _plugin() -> Finding:
+def _plugin() -> ReadyLine:
     try:
-        return Finding("ok", "plugin", f"{PLUGIN} {importlib.metadata.version(PLUGIN)}")
+        return ReadyLine("ok", "plugin", f"{PLUGIN} {importlib.metadata.version(PLUGIN)}")
     except importlib.metadata.PackageNotFoundError:
-        return Finding("error", "plugin", f"{PLUGIN} is not installed; pip install .[slurm]")
+        return ReadyLine("error", "plugin", f"{PLUGIN} is not installed; pip install .[slurm]")
 
 
 def _reason(error: Exception) -> str:

@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 
 from pyrofit.config import read_study
-from pyrofit.ready import timing
-from pyrofit.ready.finding import Situation
+from pyrofit.doctor import timing
+from pyrofit.doctor.finding import Situation
 
 SMOKE = Path(__file__).parents[3] / "config" / "smoke.yaml"
 

@@ -33,7 +33,7 @@ _IMPORTS = "import pyrofit.stages.identify, pyrofit.show.sections"
 
 
 @dataclass(frozen=True)
-class Work:
+class PartOfRun:
     """Some steps of a run.
 
     Parameters
@@ -51,10 +51,10 @@ class Work:
     alone: bool = False
 
 
-def duration_of(works: Iterable[Work], cores: int, start: float) -> float:
+def duration_of(works: Iterable[PartOfRun], cores: int, start: float) -> float:
     """Return the duration of a run [s]: steps alone, and the others shared by the cores.
 
-    >>> works = [Work(10.0, alone=True), Work(40.0, jobs=4)]
+    >>> works = [PartOfRun(10.0, alone=True), PartOfRun(40.0, jobs=4)]
     >>> duration_of(works, 2, 1.0)
     33.0
     """
@@ -81,7 +81,7 @@ def start_of_a_step() -> float:
 
 def beside_the_fits(
     study: Study, measured: Measurements, values: Mapping[str, float], call_s: float
-) -> Iterator[Work]:
+) -> Iterator[PartOfRun]:
     """Yield the steps of a run that are no searches.
 
     Parameters
@@ -96,18 +96,18 @@ def beside_the_fits(
     computed = {
         name for name, e in study.experiments.items() if _is_computed(study, name, e.signals)
     }
-    yield Work(COMPUTED_S * len(computed), jobs=2, alone=True)  # reading, gathering
+    yield PartOfRun(COMPUTED_S * len(computed), jobs=2, alone=True)  # reading, gathering
     if study.kinetics is not None:
-        yield Work(analysis_s(study, of_kinetics(study), measured, values), alone=True)
+        yield PartOfRun(analysis_s(study, of_kinetics(study), measured, values), alone=True)
     estimation = of_imp(study)
     seconds = analysis_s(study, estimation, measured, values)
     n = len(estimation.names)
     seconds += (DESCENTS + n) * ITERATIONS * (n + 1) * call_s
-    yield Work(seconds, alone=True)
+    yield PartOfRun(seconds, alone=True)
     costs = len(study.imp.costs)
-    yield Work(costs * WALKERS * SWEEPS * call_s, jobs=1 + costs)
-    yield Work(DRAWN_S * SHOWN, jobs=BESIDE_SEARCHES + SHOWN)
-    yield Work(0.0, alone=True)  # the report
+    yield PartOfRun(costs * WALKERS * SWEEPS * call_s, jobs=1 + costs)
+    yield PartOfRun(DRAWN_S * SHOWN, jobs=BESIDE_SEARCHES + SHOWN)
+    yield PartOfRun(0.0, alone=True)  # the report
 
 
 def _is_computed(study: Study, name: str, signals: Iterable[str]) -> bool:

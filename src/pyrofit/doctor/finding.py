@@ -11,7 +11,7 @@ Level = Literal["ok", "warning", "error"]
 
 
 @dataclass(frozen=True)
-class Finding:
+class ReadyLine:
     """One line of the report.
 
     Parameters
@@ -31,7 +31,7 @@ class Finding:
     def __str__(self) -> str:
         """Return the line.
 
-        >>> str(Finding("ok", "disk", "9 GB free"))
+        >>> str(ReadyLine("ok", "disk", "9 GB free"))
         'ok       disk      9 GB free'
         """
         return f"{self.level:<8} {self.subject:<9} {self.text}"
@@ -72,7 +72,7 @@ class Situation:
         return self.profile.get("executor") == "slurm"
 
 
-Check = Callable[[Situation], Iterator[Finding]]
+Check = Callable[[Situation], Iterator[ReadyLine]]
 
 
 def writable(folder: Path) -> str:

@@ -8,20 +8,20 @@ import numpy as np
 
 from pyrofit.config import Study, kinetics_of
 from pyrofit.config.expand.programs import externals
-from pyrofit.errors import PyrofitError
-from pyrofit.estimate.coarse import for_search
-from pyrofit.estimate.pose import of_imp, of_kinetics, pose
-from pyrofit.estimate.problem import Problem
-from pyrofit.estimate.targets import Measurements
-from pyrofit.ready.finding import Finding, Situation
-from pyrofit.ready.plan import Part, parts_of
-from pyrofit.ready.whole_run import (
-    Work,
+from pyrofit.doctor.finding import ReadyLine, Situation
+from pyrofit.doctor.plan import PartOfSearches, parts_of
+from pyrofit.doctor.whole_run import (
+    PartOfRun,
     beside_the_fits,
     duration_of,
     processor_s,
     start_of_a_step,
 )
+from pyrofit.errors import PyrofitError
+from pyrofit.estimate.coarse import for_search
+from pyrofit.estimate.pose import of_imp, of_kinetics, pose
+from pyrofit.estimate.problem import Problem
+from pyrofit.estimate.targets import Measurements
 from pyrofit.running.durations import in_words
 from pyrofit.running.shares import SIDE_BY_SIDE
 from pyrofit.stages.measurements import computed
@@ -40,7 +40,7 @@ LONG_H = 24.0
 class Timed(NamedTuple):
     """A fit with the times of its model calls [s]."""
 
-    part: Part
+    part: PartOfSearches
     alone: float
     """Of a call alone."""
     together: float
@@ -55,14 +55,14 @@ class Timed(NamedTuple):
         return part.alone * self.alone + part.together * self.together + part.exact * self.exact
 
 
-def duration(situation: Situation) -> Iterator[Finding]:
+def duration(situation: Situation) -> Iterator[ReadyLine]:
     """Compile the solver, time it on each cost, and estimate the duration of the run."""
     study = situation.study
     if study is None:
         return
     if externals(study):
         text = "external programs are not run here; `pyrofit trial --study FILE` times them"
-        yield Finding("warning", "time", text)
+        yield ReadyLine("warning", "time", text)
         return
     start, worked = time.perf_counter(), processor_s()
     try:
@@ -72,26 +72,26 @@ def duration(situation: Situation) -> Iterator[Finding]:
         call_s = timed[-1].exact
         beside = list(beside_the_fits(study, measured, _values(study), call_s))
     except PyrofitError as error:
-        yield Finding("error", "time", f"the model cannot be timed: {error}")
+        yield ReadyLine("error", "time", f"the model cannot be timed: {error}")
         return
     except Exception as error:  # the compiler has many kinds of errors
         text = f"{type(error).__name__}: {error}; reinstall with `make .venv/installed`"
-        yield Finding("error", "compiler", text)
+        yield ReadyLine("error", "compiler", text)
         return
     begin = START_ON_SLURM_S if situation.on_slurm else start_of_a_step()
     took = time.perf_counter() - start
     slower = took / max(processor_s() - worked, 1e-3)
-    yield Finding("ok", "compiler", f"the solver runs; compiling and timing took {took:.0f} s")
+    yield ReadyLine("ok", "compiler", f"the solver runs; compiling and timing took {took:.0f} s")
     yield estimate_of(situation, timed, beside, begin, 1.0 if situation.on_slurm else slower)
 
 
 def estimate_of(
     situation: Situation,
     timed: Sequence[Timed],
-    beside: list[Work],
+    beside: list[PartOfRun],
     start: float,
     slower: float = 1.0,
-) -> Finding:
+) -> ReadyLine:
     """Return the estimated duration of a run, and its share in model calls.
 
     All times are of a processor that nobody shares.
@@ -112,7 +112,7 @@ def estimate_of(
     calls = sum(fit.part.calls for fit in timed)
     model = sum(fit.seconds for fit in timed)
     # Nothing but its analysis runs beside the fit of the kinetics.
-    fits = [Work(SEARCHED * f.seconds, f.part.jobs, alone=not f.part.cost) for f in timed]
+    fits = [PartOfRun(SEARCHED * f.seconds, f.part.jobs, alone=not f.part.cost) for f in timed]
     total = duration_of([*fits, *beside], situation.cores, start)
     steps = sum(work.jobs for work in [*fits, *beside])
     rest = sum(work.seconds for work in beside)
@@ -125,11 +125,11 @@ def estimate_of(
     )
     if total > 3600.0 * LONG_H:
         way_out = "fewer repetitions, more cores, or a cluster (docs/cluster.md) make it shorter"
-        return Finding("warning", "time", f"{text}; {way_out}")
-    return Finding("ok", "time", text)
+        return ReadyLine("warning", "time", f"{text}; {way_out}")
+    return ReadyLine("ok", "time", text)
 
 
-def timed_part(part: Part, problem: Problem) -> Timed:
+def timed_part(part: PartOfSearches, problem: Problem) -> Timed:
     """Time the calls of a fit; those of searches with the coarser runs that they take."""
     alone, exact = seconds(problem)
     rough = for_search(problem)
@@ -163,7 +163,7 @@ def measurements(study: Study) -> Measurements:
     return measured | (computed(study, fast=True) if study.is_synthetic else {})
 
 
-def _problem(study: Study, part: Part, measured: Measurements) -> Problem:
+def _problem(study: Study, part: PartOfSearches, measured: Measurements) -> Problem:
     if part.cost:
         asked = of_imp(study, study.imp.costs[part.cost])
     else:

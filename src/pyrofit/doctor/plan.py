@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pyrofit.config import Study
 from pyrofit.estimate.calls import optimiser_calls, sceua_calls
 from pyrofit.estimate.optimisers import OPTIMISERS
-from pyrofit.running.shares import shares
+from pyrofit.running.shares import jobs_of_repetitions
 
 BYTES_PER_NUMBER = 11
 """Size of a number in a compressed history; 10.1 to 10.4 were measured."""
@@ -18,7 +18,7 @@ BYTES_BESIDE = 40_000_000
 
 
 @dataclass(frozen=True)
-class Part:
+class PartOfSearches:
     """The searches on one cost.
 
     Parameters
@@ -45,20 +45,22 @@ class Part:
         return self.alone + self.together + self.exact
 
 
-def parts_of(study: Study, cores: int | None = None) -> Iterator[Part]:
+def parts_of(study: Study, cores: int | None = None) -> Iterator[PartOfSearches]:
     """Yield the searches of a study, on the cores of this machine or, with None, on a cluster."""
     if study.kinetics is not None:
         stage = study.kinetics
-        yield Part("", sceua_calls(stage), optimiser_calls(stage, "least_squares"), jobs=1)
+        yield PartOfSearches(
+            "", sceua_calls(stage), optimiser_calls(stage, "least_squares"), jobs=1
+        )
     imp = study.imp
-    jobs = shares(study, cores=cores)
+    jobs = jobs_of_repetitions(study, cores=cores)
     single = sum(len(share) for share in jobs if len(share) == 1)
     grouped = imp.repetitions - single
     sceua = sceua_calls(imp)
     beside = {name: optimiser_calls(imp, name) for name in OPTIMISERS}
     exact = sum(calls for name, calls in beside.items() if not OPTIMISERS[name].coarse)
     for cost in imp.costs:
-        yield Part(
+        yield PartOfSearches(
             cost,
             alone=single * sceua,
             together=grouped * sceua + sum(beside.values()) - exact,
@@ -67,7 +69,7 @@ def parts_of(study: Study, cores: int | None = None) -> Iterator[Part]:
         )
 
 
-def bytes_of(study: Study) -> float:
+def size_of_results(study: Study) -> float:
     """Return the approximate size of the results of a study [byte]."""
     stage = study.imp
     numbers = sum(len(stage.estimate) + len(terms) for terms in stage.costs.values())
