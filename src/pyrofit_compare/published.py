@@ -192,7 +192,8 @@ def _obstacle(experiment: Experiment, values: Mapping[str, float]) -> str:
     if free := sorted(parameters_in(experiment) - set(values)):
         return f"no value is given for {free[0]}"
     layers = experiment.sample.layers if isinstance(experiment, SlabExperiment) else ()
-    return "a layer has its own composition" if any(x.composition for x in layers) else ""
+    own = any(layer.composition or layer.beside for layer in layers)
+    return "a layer has its own composition" if own else ""
 
 
 def _errors_of(

@@ -53,4 +53,4 @@ class PublishedSets:
 
 def _has_other_layers(experiment: object) -> bool:
     layers = experiment.sample.layers if isinstance(experiment, SlabExperiment) else ()
-    return any(layer.composition for layer in layers)
+    return any(layer.composition or layer.beside for layer in layers)

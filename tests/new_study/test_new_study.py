@@ -254,7 +254,8 @@ def test_water_of_slabs_is_asked_once_where_the_tga_shows_none(given: float, fol
     for name in ("slab_25kW", "slab_50kW"):
         (layer,) = study.experiments[name].sample.layers  # type: ignore[attr-defined]
         names = list(study.material.components)
-        shares = dict(zip(names, fractions(layer.composition, names, values)[:, 0], strict=True))
+        composed = layer.composed(study.material.composition)
+        shares = dict(zip(names, fractions(composed, names, values)[:, 0], strict=True))
         assert shares["water"] == given
         assert shares["early"] == pytest.approx(0.2 * (1.0 - given))
         assert shares["main"] == pytest.approx(0.7 * (1.0 - given))

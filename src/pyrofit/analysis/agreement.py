@@ -101,7 +101,7 @@ def _limit_notes(study: Study, experiment: SlabExperiment, start: float) -> list
 
     Densities and thicknesses are at both their limits, shares of a composition in the middle.
     """
-    layers = [layer.composition or study.material.composition for layer in experiment.sample.layers]
+    layers = [layer.composed(study.material.composition) for layer in experiment.sample.layers]
     shares = {share for composition in layers for share in composition.values()}
     free = {name: p.bounds_si for name, p in study.parameters.items() if p.value is None}
     lower, upper = (

@@ -94,7 +94,7 @@ def _reacting(
     return [
         (layer, size)
         for layer, size in _layers_of(experiment, values)
-        if reactants & set(layer.composition or study.material.composition)
+        if reactants & set(layer.composed(study.material.composition))
     ]
 
 
@@ -126,7 +126,7 @@ def _mass(
     volumes = 1.0 / (denser * density)
     total = 0.0
     for layer, size in layers:
-        composition = layer.composition or study.material.composition
+        composition = layer.composed(study.material.composition)
         share = fractions(composition, list(components), values)[:, 0]
         total += size / linear.dot(share, volumes)
     return total

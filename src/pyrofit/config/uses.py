@@ -23,7 +23,7 @@ def parameters_in(*parts: object) -> set[str]:
             found |= set(part.program.units)
         if isinstance(part, SlabExperiment):
             for layer in part.sample.layers:
-                found |= names_in(layer.composition or {})
+                found |= names_in(layer.composition or layer.beside)
     return found
 
 

@@ -145,13 +145,15 @@ def named_by(number: object) -> set[str]:
 def replaced(part: Made, change: Callable[[str], float | str]) -> Made:
     """Return a description in which every name of a parameter in the place of a number is changed.
 
-    Mass fractions of a composition are such numbers, too.
+    Mass fractions of compositions are such numbers, too.
     """
     if not isinstance(part, Part):
         return part
     new = {}
     for name, field in type(part).model_fields.items():
-        is_number = name == "composition" or any(isinstance(m, Rule) for m in field.metadata)
+        is_number = name in ("composition", "beside") or any(
+            isinstance(m, Rule) for m in field.metadata
+        )
         old = getattr(part, name)
         made = _replaced(old, is_number, change)
         if made is not old:

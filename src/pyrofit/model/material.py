@@ -1,5 +1,6 @@
 """Components, their properties, and the reactions between them."""
 
+from collections.abc import Mapping
 from typing import Annotated, Self
 
 from pydantic import Field, model_validator
@@ -180,7 +181,7 @@ class Material(Part):
 
 
 def check_composition(
-    composition: dict[str, float | str], components: dict[str, Component]
+    composition: Mapping[str, float | str], components: dict[str, Component]
 ) -> None:
     """Refuse mass fractions that cannot add up to one."""
     for name, fraction in composition.items():

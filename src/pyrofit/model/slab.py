@@ -1,5 +1,6 @@
 """A slab under radiant heat: sample, sides, foil, edge."""
 
+from collections.abc import Mapping
 from typing import Annotated, ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
@@ -19,6 +20,7 @@ from pyrofit.model.base import (
     Thickness,
 )
 from pyrofit.model.experiment import Experiment
+from pyrofit.model.material import REST
 from pyrofit.model.slab_faces import Back, Flame, Front
 
 
@@ -49,6 +51,36 @@ class Layer(Part):
     composition: dict[str, float | str] | None = Field(
         None, description="mass fractions, where they differ from the material's"
     )
+    beside: dict[str, float | str] = Field(
+        default_factory=dict,
+        description="mass fractions of components beside the material, such as water",
+    )
+
+    @model_validator(mode="after")
+    def _either(self) -> Self:
+        if self.composition is not None and self.beside:
+            raise ValueError("give `composition` or `beside`, not both")
+        if REST in self.beside.values():
+            raise ValueError("`beside`: the rest is the material; give each component its share")
+        return self
+
+    def composed(self, material: Mapping[str, float | str]) -> Mapping[str, float | str]:
+        """Return the mass fractions of the layer, from those of the material.
+
+        w_i = (1 - sum of those beside it) w_i of the material.
+
+        >>> layer = Layer(thickness_m=0.01, beside={"water": "w"})
+        >>> layer.composed({"early": 0.2, "main": "rest"})
+        {'early': '(0.2) * (1 - w)', 'main': 'rest', 'water': 'w'}
+        """
+        if self.composition is not None:
+            return self.composition
+        if not self.beside:
+            return material
+        left = " - ".join(["1", *(f"{share}" for share in self.beside.values())])
+        rest = next((n for n, w in material.items() if w == REST), next(iter(material), ""))
+        own = {n: REST if n == rest else f"({w}) * ({left})" for n, w in material.items()}
+        return {**own, **self.beside}
 
 
 class Adhesive(Part):
@@ -130,7 +162,7 @@ class Sample(Part):
     def bodies(self) -> frozenset[str]:
         """Components that layers with a composition of their own, adhesive and backing have."""
         parts = (*self.backing, *([self.adhesive] if self.adhesive else ()))
-        of_layers = {name for layer in self.layers for name in layer.composition or ()}
+        of_layers = {name for layer in self.layers for name in layer.composition or layer.beside}
         return frozenset({*of_layers, *(part.component for part in parts)})
 
     @property

@@ -141,14 +141,9 @@ class KineticsDraft:
         return self.moisture > MOIST
 
     @property
-    def moist_layers(self) -> str:
-        """Composition of slabs that hold water w_w, where the records show none: a mapping."""
-        if self.moist or not self.charring:
-            return ""
-        if self.single:
-            return "{virgin: rest, water: w_w}"
-        dry = (f"{name}: w_{name[0]} * (1 - w_w)" for name in ("early", "late"))
-        return f"{{main: rest, {', '.join(dry)}, water: w_w}}"
+    def asks_water(self) -> bool:
+        """Whether slabs may hold water w_w that the records do not show."""
+        return self.charring and not self.moist
 
     @property
     def moistures(self) -> tuple[float, float]:

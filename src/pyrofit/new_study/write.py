@@ -195,8 +195,8 @@ def study_text(name: str, tests: Sequence[MeasuredFile]) -> str:
             kinetics=kinetics,
             virgin=_virgin(alone, estimated),
             residue_density=1000 if kinetics.residue <= _FILM else 250,
-            asks_water=alone is None and kinetics.moist_layers != "",
-            experiments=_experiments([*heated.runs, *slabs.runs], kinetics.moist_layers),
+            asks_water=alone is None and kinetics.asks_water,
+            experiments=_experiments([*heated.runs, *slabs.runs], kinetics.asks_water),
             kinetics_part=heated,
             kinetics_words=_words(heated),
             kinetics_estimate=of_kinetics,
@@ -247,10 +247,10 @@ def _environment() -> Environment:
     )
 
 
-def _experiments(runs: Sequence[MeasuredFile], composition: str) -> list[str]:
+def _experiments(runs: Sequence[MeasuredFile], moist: bool) -> list[str]:
     """Return the lines of each experiment, from the template of its kind.
 
-    ``composition`` is that of slabs, where it differs from the material's.
+    ``moist``: slabs hold water beside the material.
     """
     templates, again = _environment(), titles(runs)
     first = _firsts(runs)
@@ -263,7 +263,7 @@ def _experiments(runs: Sequence[MeasuredFile], composition: str) -> list[str]:
             again=again[run.name],
             facts=files_of(run.kind).facts(run.frames),
             signals=signal_lines(run, asks_place=run.name == first.get("back")),
-            composition=composition,
+            moist=moist,
             shared={name: (place == run.name) for name, place in first.items()},
             area=USUAL_AREA_M2 if assumes_area(run) else None,
         )

@@ -67,7 +67,7 @@ def lower_share(
     experiment: SlabExperiment, material: words.Material, values: Values, sets: int = 1
 ) -> FloatArray:
     """Return the mass fractions of the front layer, shape (components, sets)."""
-    composition = experiment.sample.layers[0].composition or material.composition
+    composition = experiment.sample.layers[0].composed(material.composition)
     return fractions(composition, list(material.components), values, sets)
 
 
@@ -89,7 +89,7 @@ def lower_layers(
     for layer, size in zip(sample.layers, thicknesses(sample, values), strict=True):
         share = front
         if share is None or layer is not sample.layers[0]:
-            share = fractions(layer.composition or material.composition, names, values, sets)
+            share = fractions(layer.composed(material.composition), names, values, sets)
         mass = size / total(share * arrays.specific_volume)
         layers.append(LoweredLayer(share * mass, number_of_sets(size, sets)))
     if sample.adhesive is not None:

@@ -31,7 +31,7 @@ def own_layers(sample: Sample, material: Material, values: Values) -> list[FdsLa
     names = list(material.components)
     found = []
     for layer, size in zip(sample.layers, thicknesses(sample, values), strict=True):
-        share = fractions(layer.composition or material.composition, names, values)[:, 0]
+        share = fractions(layer.composed(material.composition), names, values)[:, 0]
         of = {n: float(w) for n, w in zip(names, share, strict=True) if w > 0.0}
         found.append(FdsLayer(of, float(np.asarray(size))))
     behind: list[Adhesive | Backing] = [] if sample.adhesive is None else [sample.adhesive]

@@ -39,14 +39,15 @@ def check_compositions(study: Study) -> None:
         With place, rule and way out.
     """
     material = study.material
+    compositions: dict[str, Mapping[str, float | str]]
     compositions = {"material.composition": material.composition} if material.components else {}
     for name, experiment in study.experiments.items():
         if not isinstance(experiment, SlabExperiment):
             continue
         for i, layer in enumerate(experiment.sample.layers):
-            if layer.composition is not None:
-                place = f"experiments.{name}.sample.layers.{i}.composition"
-                compositions[place] = layer.composition
+            key = "beside" if layer.beside else "composition"
+            if (composed := layer.composed(material.composition)) is not material.composition:
+                compositions[f"experiments.{name}.sample.layers.{i}.{key}"] = composed
         _check_adhesive(study, name, experiment)
         _check_backing(study, name, experiment)
     for label, chosen in (study.kinetics.sets if study.kinetics else {}).items():

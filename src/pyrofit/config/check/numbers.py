@@ -34,7 +34,7 @@ _UNITS: dict[str, tuple[str, ...]] = {
     "bend": ("1/K", "kg/J"),
     "": ("-",),
 }
-_SHARES = ("products", "composition")
+_SHARES = ("products", "composition", "beside")
 _SAME_UNIT = ("value", "of", "step")
 """Keys of a property whose unit is the property's."""
 

@@ -60,7 +60,7 @@ def _elements(
     virgin, mass = [], []
     for layer, size in zip(sample.layers, sizes, strict=True):
         count = max(2, round(elements * size / sum(sizes)))
-        share = mass_fractions(layer.composition or material.composition, solid.names, values)
+        share = mass_fractions(layer.composed(material.composition), solid.names, values)
         virgin.append(np.tile(share, (count, 1)))
         mass.append(np.full(count, size / count / (share / solid.density).sum()))
     glue = sample.adhesive

@@ -62,7 +62,7 @@ def holds_water(study: Study, slab: SlabExperiment) -> bool:
     least, most = _ends(study)
     reactions = study.material.reactions.values()
     leaves = {reaction.reactant for reaction in reactions if _is_drying(reaction, least)}
-    compositions = (layer.composition or study.material.composition for layer in slab.sample.layers)
+    compositions = (layer.composed(study.material.composition) for layer in slab.sample.layers)
     shares = (share for of in compositions for name, share in of.items() if name in leaves)
     return any(_known(share, most, 1.0) > 0.0 for share in shares)
 
