@@ -367,7 +367,7 @@ def test_table_gives_estimates_beside_their_stated_scatter(
         for i, value in ((1, 1.05), (2, 0.99))
     ]
     monkeypatch.setattr(shown.identification, "read", lambda study, results: None)
-    monkeypatch.setattr(shown, "estimated", lambda study, identified: found)
+    monkeypatch.setattr(shown, "estimates_of", lambda study, identified: found)
     frame = repeats_table(study, Results(tmp_path))
     assert frame["stated_sd"].tolist() == [0.02, 0.02]
     assert frame["away_sd"].tolist() == pytest.approx([2.5, -0.5])

@@ -10,7 +10,7 @@ from pyrofit.data.csvfile import read_table
 from pyrofit.errors import DataError
 from pyrofit.new_study import draft
 from pyrofit.new_study.plan import part_of
-from pyrofit.new_study.repeats import tests_of_names
+from pyrofit.new_study.repeats import grouped_by_names
 
 R = 8.314462618
 RATES = 5.0, 10.0, 20.0
@@ -88,6 +88,6 @@ def test_repeats_of_a_hold_are_one_program_of_four(tmp_path: Path) -> None:
         path = hold(tmp_path / f"board_563Kiso_R{n}.csv", 563.0, 0.4)
         runs.append(draft.read_experiment("tga", path))
     assert [run.number for run in runs[3:]] == pytest.approx([10.0] * 3, rel=0.03)
-    tests = tests_of_names(runs)
+    tests = grouped_by_names(runs)
     assert len(tests) == 4
     assert len(part_of("kinetics", tests).held_out) == 1

@@ -18,14 +18,14 @@ def root_of(name: str) -> str:
     return _REPEAT.sub("", name)
 
 
-def tests_of_names(records: Sequence[MeasuredFile]) -> list[MeasuredFile]:
+def grouped_by_names(records: Sequence[MeasuredFile]) -> list[MeasuredFile]:
     """Return the tests: files whose names differ in a number at the end alone are repeats of one.
 
     They must be of one kind and have the same heating rate or flux, which must be known. A test
     has the signals of all its repeats.
 
     >>> one = [MeasuredFile("tga", f"a_10K_{end}", None, 10.0) for end in ("R1", "R2")]
-    >>> [test.name for test in tests_of_names([*one, MeasuredFile("tga", "a_20K_1", None, 20.0)])]
+    >>> [test.name for test in grouped_by_names([*one, MeasuredFile("tga", "a_20K_1", None, 20.0)])]
     ['a_10K', 'a_20K_1']
     """
     alike: dict[tuple[str, str, float], list[MeasuredFile]] = {}

@@ -20,7 +20,7 @@ from pyrofit.new_study.divisor import USUAL_AREA_M2
 from pyrofit.new_study.draft import KineticsDraft, MeasuredFile
 from pyrofit.new_study.marks import asked_once
 from pyrofit.new_study.plan import PartOfPlan, heats, part_of, titles, uncompared
-from pyrofit.new_study.repeats import tests_of_names
+from pyrofit.new_study.repeats import grouped_by_names
 from pyrofit.new_study.wide_tables import split_table
 from pyrofit.new_study.words import (
     assumes_area,
@@ -84,7 +84,7 @@ def init(name: str, files: Files, parent: Path) -> tuple[Path, list[str]]:
     with TemporaryDirectory() as parts:
         single = {kind: _split(kind, paths, Path(parts)) for kind, paths in files.items()}
         records, copied = without_copies(_records(single))
-        tests = tests_of_names(records) or computed_experiments()
+        tests = grouped_by_names(records) or computed_experiments()
         study = _write(folder, study_text(name, tests), records)
     heated, slabs = (part_of(stage, tests) for stage in STAGES)
     lines = (
@@ -134,7 +134,7 @@ def drafted(name: str, files: Files) -> tuple[str, list[MeasuredFile], list[str]
     """
     _check_name(name)
     records, copied = without_copies(_records(files))
-    return study_text(name, tests_of_names(records)), records, copied
+    return study_text(name, grouped_by_names(records)), records, copied
 
 
 def _write(folder: Path, text: str, records: Sequence[MeasuredFile]) -> Path:
