@@ -11,7 +11,7 @@ from pyrofit.config import Study, TermSpec
 from pyrofit.config.uses import parameters_in
 from pyrofit.cost import WeightedSum
 from pyrofit.estimate.distinct_sets import Indices, distinct_sets, taken
-from pyrofit.estimate.run import Run, asked_together, is_alike, own_curves
+from pyrofit.estimate.run import Run, alike, asked_together, own_curves
 from pyrofit.estimate.targets import Measurements, term_for
 from pyrofit.experiments import kind_of
 from pyrofit.experiments.base import Simulate
@@ -146,11 +146,7 @@ class Problem:
     @cached_property
     def alike(self) -> dict[str, str]:
         """The first experiment that is simulated as each one is."""
-        found: dict[str, str] = {}
-        for name, run in self.runs.items():
-            same = (n for n in dict.fromkeys(found.values()) if is_alike(self.runs[n], run))
-            found[name] = next(same, name)
-        return found
+        return alike(self.runs)
 
     @cached_property
     def _asked(self) -> dict[str, dict[str, Request]]:

@@ -36,6 +36,15 @@ def is_alike(one: Run, other: Run) -> bool:
     )
 
 
+def alike(runs: Mapping[str, Run]) -> dict[str, str]:
+    """Return of each run the first one that is simulated as it is."""
+    found: dict[str, str] = {}
+    for name, run in runs.items():
+        same = (n for n in dict.fromkeys(found.values()) if is_alike(runs[n], run))
+        found[name] = next(same, name)
+    return found
+
+
 def _is_same(one: Request, other: Request) -> bool:
     T, of_other = one.temperature_K, other.temperature_K
     if (one.average_s, one.output) != (other.average_s, other.output):

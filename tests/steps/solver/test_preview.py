@@ -2,6 +2,7 @@
 
 from functools import cache
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -10,10 +11,12 @@ import pytest
 from pyrofit.cli import main
 from pyrofit.config import Study, as_study, read_study
 from pyrofit.effects.base import changed
+from pyrofit.experiments import kind_of
 from pyrofit.experiments.dsc import Dsc
 from pyrofit.model.slab import Backing, SlabExperiment
 from pyrofit.results.files import Results, write_csv
 from pyrofit.stages.measurements import computed
+from pyrofit.steps.preview import reach
 from pyrofit.steps.preview.compute import OF_REPEATS, all_simulated, preview, windows
 from pyrofit.steps.preview.corrections import possible_corrections
 from pyrofit.steps.preview.figures import draw_experiments
@@ -310,6 +313,26 @@ def test_a_further_repeat_takes_few_sets_unless_it_lies_outside(factor: float, r
     first, further = ("slab_60_1", "mlr"), ("slab_60_2", "mlr")
     np.testing.assert_array_equal(found[first], every[first])
     np.testing.assert_array_equal(found[further], every[further][:rows])
+
+
+def test_repeats_that_end_apart_are_simulated_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    study, frames = with_repeat(1.0)
+    further = "slab_60_2", "mlr"
+    case = case_of(study, {**frames, further: frames[further].iloc[:-40]})
+    sets = draw(study, study.parameters, 4)
+    calls: list[object] = []
+
+    def counted(experiment: SlabExperiment) -> SimpleNamespace:
+        kind = kind_of(experiment)
+        run = lambda *given: calls.append(given) or kind.simulate(*given)  # noqa: E731
+        return SimpleNamespace(request=kind.request, simulate=run)
+
+    monkeypatch.setattr(reach, "kind_of", counted)
+    found = simulate(study, case, sets)
+    assert len(calls) == 1
+    alone = simulate(study, case.of([further[0]]), sets)
+    assert alone[further].max() > 1e-3
+    np.testing.assert_allclose(found[further][:, :-2], alone[further][:, :-2], rtol=1e-9)
 
 
 def test_no_further_descent_follows_one_that_suffices() -> None:

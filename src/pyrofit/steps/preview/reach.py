@@ -9,11 +9,11 @@ import pandas as pd
 from pyrofit.config import Study
 from pyrofit.config.expand.programs import externals
 from pyrofit.estimate.coarse import point_noise
+from pyrofit.estimate.run import Run, alike, asked_together, own_curves
 from pyrofit.estimate.targets import Measurements
 from pyrofit.experiments import kind_of
 from pyrofit.model.experiment import Experiment
 from pyrofit.solver.arrays import FloatArray
-from pyrofit.solver.curves import Request
 from pyrofit.steps.preview.sets import Sets
 
 Channel = tuple[str, str]
@@ -141,12 +141,17 @@ def simulate_all(
         Another case and its curves of the same sets: what is simulated alike is taken from there.
     """
     found: dict[Channel, FloatArray] = {}
+    runs: dict[str, Run] = {}
     for name in dict.fromkeys(experiment for experiment, _ in case.frames):
-        channels = [(name, signal) for signal in case.signals(name)]
         if known is not None and _alike(case, known[0], name):
-            found |= {channel: known[1][channel] for channel in channels}
+            found |= {(name, signal): known[1][name, signal] for signal in case.signals(name)}
         else:
-            found |= _simulated(study, case, sets, name)
+            runs[name] = _run(case, name)
+    together: dict[str, dict[str, Run]] = {}
+    for name, first in alike(runs).items():
+        together.setdefault(first, {})[name] = runs[name]
+    for repeats in together.values():
+        found |= _simulated(study, sets, repeats)
     return found
 
 
@@ -160,29 +165,36 @@ def _alike(one: RecordedCases, other: RecordedCases, name: str) -> bool:
     )
 
 
-def _simulated(
-    study: Study, case: RecordedCases, sets: Sets, name: str
-) -> dict[Channel, FloatArray]:
+def _run(case: RecordedCases, name: str) -> Run:
+    """Return the simulation of an experiment, asked for the points of its records."""
     experiment = case.experiments[name]
-    kind = kind_of(experiment)
-    asked: dict[str, Request] = {}
-    for signal in case.signals(name):
-        frame = case.frames[name, signal]
-        times = frame["time_s"].to_numpy(float)
-        asked[signal] = kind.request(experiment, signal, frame, times)
-    own = study.serves(name, "kinetics") and study.kinetics is not None
+    request = kind_of(experiment).request
+    frames = {signal: case.frames[name, signal] for signal in case.signals(name)}
+    return Run(
+        experiment,
+        {
+            signal: request(experiment, signal, frame, frame["time_s"].to_numpy(float))
+            for signal, frame in frames.items()
+        },
+    )
+
+
+def _simulated(study: Study, sets: Sets, runs: Mapping[str, Run]) -> dict[Channel, FloatArray]:
+    """Return the curves of runs that one simulation serves."""
+    first = next(iter(runs))
+    experiment, asked = runs[first].experiment, asked_together(list(runs.values()))
+    own = study.serves(first, "kinetics") and study.kinetics is not None
     material = study.material if own else study.material_with(study.imp.kinetics)
-    accuracy = study.accuracy.coarsened()
-    [runs] = kind.simulate([experiment], material, sets.values, [asked], accuracy, sets.count)
-    return {
-        (name, signal): np.array(
-            [
-                run.signals[signal] if run.status.finished else np.full(request.time_s.size, np.nan)
-                for run in runs
-            ]
-        )
-        for signal, request in asked.items()
-    }
+    accuracy, simulate = study.accuracy.coarsened(), kind_of(experiment).simulate
+    [found] = simulate([experiment], material, sets.values, [asked], accuracy, sets.count)
+    curves: dict[Channel, FloatArray] = {}
+    for name, run in runs.items():
+        own_of = [own_curves(of_set, asked, run.requests) for of_set in found]
+        for signal, request in run.requests.items():
+            none = np.full(request.time_s.size, np.nan)
+            of_sets = [c.signals[signal] if c.status.finished else none for c in own_of]
+            curves[name, signal] = np.array(of_sets)
+    return curves
 
 
 @dataclass(frozen=True, eq=False)
