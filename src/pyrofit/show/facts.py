@@ -126,15 +126,17 @@ def facts_of(study: Study, results: Results, tables: Frames) -> Facts:
         times=wall_times(study, results),
         isoconversional=isoconversional.read_findings(results),
         offers=isoconversional.offers(results),
-        suspect=_suspect(study, results),
+        suspect=_suspect(study, results, identified.goodness),
         water=_water(study, results),
         ensemble=_ensemble(study, results),
     )
 
 
-def _suspect(study: Study, results: Results) -> str:
+def _suspect(study: Study, results: Results, goodness: Mapping[str, Goodness]) -> str:
+    """Return the likeliest cause, but none at records that a fit describes as they are."""
     causes = preview.read(results).causes if exists(study, results, "preview") else []
-    return causes[0].words if causes else ""
+    met = {s.experiment for found in goodness.values() if found.describes for s in found.signals}
+    return next((cause.words for cause in causes if not met.issuperset(cause.places)), "")
 
 
 def _water(study: Study, results: Results) -> str:

@@ -26,6 +26,8 @@ from pyrofit.show.subjects.answer.summary import summary
 from pyrofit.show.subjects.truth.sentences import errors_of_sets as sentences
 from pyrofit.show.table import write_table
 from pyrofit.steps.posterior import record as posterior
+from pyrofit.steps.preview import record as preview
+from pyrofit.steps.preview.inputs import INPUTS
 from pyrofit.steps.rescore import record as rescored
 from pyrofit.steps.rescore.page import PAGE as RESCORE
 from pyrofit.steps.robustness.options import RobustnessOptions
@@ -95,7 +97,8 @@ def test_first_screen_answers_three_questions_in_order(tmp_path: Path) -> None:
         "cp (upper) is at a limit: the best fit lies outside the limits. Such a value is the "
         "limit&#39;s, and the others depend on it.",
         "The data determine 2 of 3 parameters: T_p and k (95 % interval narrower than 20 % of the "
-        "search range). Publish them with their intervals. Undetermined: cp (70.0 %, upper limit). "
+        "search range). Publish T_p with its interval. Intervals of k hold only with the limits "
+        "reached: mend these first. Undetermined: cp (70.0 %, upper limit). "
         "In brackets: the width of the 95 % interval over the search range. "
         "Do not quote cp alone: other values fit as well.",
         "Usual errors of the apparatus move k by ± 0.098 W/(m K), farther than the interval "
@@ -535,6 +538,25 @@ def test_likely_error_of_the_data_is_the_first_next_step(tmp_path: Path) -> None
     first = next(next_steps(study, facts))
     assert first.startswith("Look at the data first")
     assert first.endswith("the flux of slab_25 is 10 times too large.")
+
+
+def test_cause_that_a_fit_refutes_is_no_next_step(tmp_path: Path) -> None:
+    study, results = fake(tmp_path)
+    facts = facts_in(study, results)
+    (fitted,) = {s.experiment for s in facts.goodness["kinetics"].signals}
+    causes = [
+        preview.Likely(
+            cause="clock", places=[place], words=f"clock of {place}", explained=0.9, left=0.01
+        )
+        for place in (fitted, "slab_60")
+    ]
+    found = preview.Found(
+        sets=9, unfinished={}, windows=[], nearest=[], far=True, causes=causes, unmoved=[]
+    )
+    preview.write(results, found)
+    results.of_step("preview", INPUTS.files[-1]).touch()
+    assert facts_in(study, results).suspect == "clock of slab_60"
+    assert facts.goodness["kinetics"].describes
 
 
 def test_share_of_0_is_told_as_such(tmp_path: Path) -> None:

@@ -50,7 +50,7 @@ def _by_verdict(ours: list[Estimated]) -> str:
         text = (
             f"The data determine {len(sure)} of {several(len(ours), 'parameter')}: "
             f"{listed([e.name for e in sure])} (95 % interval narrower than 20 % of the search "
-            "range). Publish them with their intervals."
+            f"range). {_to_publish(sure, {e.stage for e in ours if e.bound})}"
         )
     elif "apparent value" in groups:
         text = "No value can be published as a property of the material from this model."
@@ -65,6 +65,18 @@ def _by_verdict(ours: list[Estimated]) -> str:
     if loose:
         text += f" Do not quote {listed(loose)} alone: other values fit as well."
     return text
+
+
+def _to_publish(sure: list[Estimated], at_limits: set[str]) -> str:
+    """Say which determined values can be published: not those of stages that reach a limit."""
+    tied = [e.name for e in sure if e.stage in at_limits]
+    free = [e.name for e in sure if e.stage not in at_limits]
+    if not tied:
+        return "Publish them with their intervals."
+    text = f"Publish {listed(free)} with its interval. " if free else ""
+    if len(free) > 1:
+        text = text.replace("its interval", "their intervals")
+    return f"{text}Intervals of {listed(tied)} hold only with the limits reached: mend these first."
 
 
 def _by_description(ours: list[Estimated]) -> Iterator[str]:
