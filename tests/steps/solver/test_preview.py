@@ -146,6 +146,19 @@ def test_corrections_undo_what_their_words_say() -> None:
     assert any("4 times too large: area" in words for words in rest)
 
 
+def test_clock_is_not_late_by_more_than_the_record_is_flat() -> None:
+    study, frames = smoke()
+    channel = "slab_25", "mlr"
+    late = frames[channel].assign(time_s=frames[channel]["time_s"] + 60.0)
+    lead = late.iloc[:12].assign(time_s=np.arange(12.0) * 5.0, mlr_kg_m2_s=0.0)
+    case = case_of(study, {channel: pd.concat([lead, late], ignore_index=True)})
+    words = [one.words for one in corrections(case, [channel], [])]
+    assert "the clock of slab_25 is about 60 s late" in words
+    # Then 300 s would leave out the test itself: nothing is left to disagree.
+    assert "the clock of slab_25 is about 300 s late" not in words
+    assert "the clock of slab_25 is about 300 s early" in words
+
+
 def test_baseline_of_an_instrument_is_a_line_that_leaves_a_usual_specific_heat() -> None:
     described = {
         "kind": "dsc",

@@ -5,6 +5,8 @@ from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
 
+import numpy as np
+
 from pyrofit.model.experiment import Experiment
 from pyrofit.model.heated import Baseline, HeatedExperiment
 from pyrofit.model.slab import SlabExperiment
@@ -46,6 +48,9 @@ FACTORS = (10.0, 0.1, 100.0, 0.01, 1e3, 1e-3, 60.0, 1.0 / 60.0, 4.0, 0.25, 2.0, 
 """Factors of values: units, minutes for seconds, radius for diameter."""
 MINUTES = (60.0, 1.0 / 60.0)
 SHIFTS_S = (-300.0, -120.0, -60.0, -30.0, 30.0, 60.0, 120.0, 300.0)
+FLAT = 0.1
+"""Change of a record before the start of a test at most, over its range: without a flux nothing
+happens. A shift that leaves the test itself out would explain everything."""
 ROOM_K = 293.15
 USUAL_K = (250.0, 450.0)
 """Temperatures of gas and walls that need no explanation."""
@@ -181,6 +186,8 @@ def _clocks(case: RecordedCases, name: str) -> Iterator[LikelyCause]:
             column_changed(name, signals, "time_s", multiplied(factor)),
         )
     for shift in SHIFTS_S:
+        if not all(_is_flat(case, (name, signal), -shift) for signal in signals):
+            continue
         late = "early" if shift > 0.0 else "late"
         yield LikelyCause(
             CLOCK,
@@ -188,6 +195,15 @@ def _clocks(case: RecordedCases, name: str) -> Iterator[LikelyCause]:
             f"the clock of {name} is about {abs(shift):g} s {late}",
             shifted(name, signals, shift),
         )
+
+
+def _is_flat(case: RecordedCases, channel: Channel, until_s: float) -> bool:
+    """Tell whether a record hardly changes up to a time, as before the start of a test."""
+    name, signal = channel
+    frame = case.frames[channel]
+    values = frame[case.experiments[name].quantity(signal).column].to_numpy(float)
+    early = values[frame["time_s"].to_numpy(float) < until_s]
+    return early.size == 0 or float(np.ptp(early)) <= FLAT * float(np.ptp(values))
 
 
 def _rates(case: RecordedCases, name: str) -> Iterator[LikelyCause]:
