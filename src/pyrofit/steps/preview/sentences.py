@@ -85,8 +85,8 @@ def _far(study: Study, found: Preview) -> Iterator[str]:
         if one.left > LEAST_LEFT
     ]
     yield (
-        "Each record alone lies within the limits, but no set comes near all at once. The nearest "
-        f"one differs, in per cent of the range, from {listed(parts)}."
+        "Each record alone lies within the limits, but no set tried comes near all at once. The "
+        f"nearest one differs, in per cent of the range, from {listed(parts)}."
     )
 
 

@@ -35,8 +35,8 @@ def next_steps(study: Study, facts: Facts) -> Iterator[str]:
     """Yield the steps, the first first: data, limits, model, further tests, prediction."""
     if facts.suspect:
         yield (
-            "Look at the data first: no set within the limits reaches them. The likeliest cause: "
-            f"{facts.suspect}."
+            "Look at the data first: no set tried within the limits reaches them. The likeliest "
+            f"cause: {facts.suspect}."
         )
     if facts.water:
         yield facts.water
