@@ -550,7 +550,7 @@ def test_cause_that_a_fit_refutes_is_no_next_step(tmp_path: Path) -> None:
         )
         for place in (fitted, "slab_60")
     ]
-    found = preview.Found(
+    found = preview.Preview(
         sets=9, unfinished={}, windows=[], nearest=[], far=True, causes=causes, unmoved=[]
     )
     preview.write(results, found)

@@ -152,7 +152,7 @@ def test_clock_is_not_late_by_more_than_the_record_is_flat() -> None:
     late = frames[channel].assign(time_s=frames[channel]["time_s"] + 60.0)
     lead = late.iloc[:12].assign(time_s=np.arange(12.0) * 5.0, mlr_kg_m2_s=0.0)
     case = case_of(study, {channel: pd.concat([lead, late], ignore_index=True)})
-    words = [one.words for one in corrections(case, [channel], [])]
+    words = [one.words for one in possible_corrections(case, [channel], [])]
     assert "the clock of slab_25 is about 60 s late" in words
     # Then 300 s would leave out the test itself: nothing is left to disagree.
     assert "the clock of slab_25 is about 300 s late" not in words
@@ -332,7 +332,7 @@ def test_repeats_that_end_apart_are_simulated_once(monkeypatch: pytest.MonkeyPat
     study, frames = with_repeat(1.0)
     further = "slab_60_2", "mlr"
     case = case_of(study, {**frames, further: frames[further].iloc[:-40]})
-    sets = draw(study, study.parameters, 4)
+    sets = draw_sets(study, study.parameters, 4)
     calls: list[object] = []
 
     def counted(experiment: SlabExperiment) -> SimpleNamespace:
@@ -341,9 +341,9 @@ def test_repeats_that_end_apart_are_simulated_once(monkeypatch: pytest.MonkeyPat
         return SimpleNamespace(request=kind.request, simulate=run)
 
     monkeypatch.setattr(reach, "kind_of", counted)
-    found = simulate(study, case, sets)
+    found = simulate_all(study, case, sets)
     assert len(calls) == 1
-    alone = simulate(study, case.of([further[0]]), sets)
+    alone = simulate_all(study, case.of([further[0]]), sets)
     assert alone[further].max() > 1e-3
     np.testing.assert_allclose(found[further][:, :-2], alone[further][:, :-2], rtol=1e-9)
 
