@@ -13,7 +13,7 @@ import pytest
 
 from pyrofit.data import fetch as module
 from pyrofit.data.download import sha256
-from pyrofit.data.fetch import available, fetch, locate, missing, registry, store
+from pyrofit.data.fetch import fetch, locate, missing, registry, store
 from pyrofit.errors import DataError
 
 FILES = {"LICENSE": b"free\n", "PMMA/a.csv": b"Time\n1\n", "PMMA/deep/b.csv": b"Time\n2\n"}
@@ -97,19 +97,19 @@ def test_mirror_that_is_no_folder_is_refused(
 ) -> None:
     (tmp_path / "file").touch()
     monkeypatch.setenv("PYROFIT_DATA_DIR", str(tmp_path / name))
-    for ask in (store, available, fetch):
+    for ask in (store, fetch):
         with pytest.raises(DataError, match="must be an existing folder"):
             ask()
 
 
 def test_files_are_fetched_once(url: str, cache: Path, upstream: Path) -> None:
-    assert not available()
+    assert missing(store())
     assert missing(cache) == list(FILES)
     paths = fetch(base_url=url)
     assert paths == [cache / name for name in FILES]
     assert [path.read_bytes() for path in paths] == list(FILES.values())
     assert files_below(cache) == sorted(FILES)
-    assert available()
+    assert not missing(store())
     for name in FILES:
         (upstream / name).unlink()
     assert fetch(base_url=url) == paths

@@ -156,9 +156,7 @@ class Comparison:
         """Return the scores as text."""
         return text_table(self.scores, "")
 
-    def __repr__(self) -> str:
-        """Return the scores: a notebook without HTML shows them."""
-        return str(self)
+    __repr__ = __str__  # a notebook without HTML shows it
 
     def _repr_html_(self) -> str:
         return html_page(f"measured and simulated: {self.study.name}", [("", self.scores)])

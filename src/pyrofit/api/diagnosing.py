@@ -234,9 +234,7 @@ class Diagnosis:
         """Return the report."""
         return self.report()
 
-    def __repr__(self) -> str:
-        """Return the report: a notebook without HTML shows it."""
-        return self.report()
+    __repr__ = __str__  # a notebook without HTML shows it
 
     def _repr_html_(self) -> str:
         title = f"Diagnosis of study '{self.study.name}'"

@@ -224,9 +224,7 @@ class Fit:
         """Return the report."""
         return self.report()
 
-    def __repr__(self) -> str:
-        """Return the report: a notebook without HTML shows it."""
-        return self.report()
+    __repr__ = __str__  # a notebook without HTML shows it
 
     def _repr_html_(self) -> str:
         return html_of(self._contents())

@@ -81,22 +81,6 @@ def missing(folder: Path) -> list[str]:
     return [name for name in registry() if not (folder / name).is_file()]
 
 
-def available() -> bool:
-    """Tell whether every needed file lies in the store; `locate` verifies them one by one.
-
-    Returns
-    -------
-    bool
-        True if none is missing.
-
-    Raises
-    ------
-    DataError
-        PYROFIT_DATA_DIR is not an existing folder.
-    """
-    return not missing(store())
-
-
 def locate(relative: str) -> Path:
     """Give the path of a measured file whose SHA-256 is the registered one.
 

@@ -18,7 +18,6 @@ _GROUPED = re.compile(r"[-+]?[1-9]\d{0,2}(?:[ '’\u00a0\u202f]\d{3})+(?:[.,]\d*
 _COMMAS = re.compile(r"[-+]?\d[\d.]*(?:,\d+)*(?:\.\d*)?(?:[eE][-+]?\d+)?")
 _COMMA_THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2}(?:,\d{3})+(?:\.\d*)?")
 _POINT_THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2}(?:\.\d{3})+(?:,\d*)?")
-_COMMA_DECIMAL = re.compile(r"[-+]?\d*,\d*(?:[eE][-+]?\d+)?")
 
 
 @dataclass(frozen=True)

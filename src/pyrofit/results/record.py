@@ -1,13 +1,15 @@
 """Records: what a result file holds, from the code that writes it to the code that reads it."""
 
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TypeVar
+from typing import Generic, TypeVar
 
-from pydantic import BaseModel, ConfigDict, TypeAdapter, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
 
+from pyrofit.config import Study
 from pyrofit.errors import DataError
-from pyrofit.results.files import read_json, write_json
+from pyrofit.results.files import Results, read_json, write_json
 from pyrofit.results.needed import AGAIN
 
 _WRONG = {
@@ -31,7 +33,14 @@ class Record(BaseModel):
     model_config = ConfigDict(strict=True, frozen=True, extra="forbid", allow_inf_nan=False)
 
 
+class OfStudy(Record):
+    """The result of a step."""
+
+    study: str = Field(description="name of the study")
+
+
 Made = TypeVar("Made", bound=Record)
+Whole = TypeVar("Whole", bound=OfStudy)
 Kind = TypeVar("Kind")
 
 
@@ -54,6 +63,42 @@ def read_record(
     if not is_ours(found):
         raise DataError(f"{path}: this is the result of another study; {AGAIN}")
     return found
+
+
+@dataclass(frozen=True)
+class StepResult(Generic[Whole]):
+    """The file of a step's result.
+
+    Parameters
+    ----------
+    step, file, kind
+        Names of step and file, and the class of the record.
+    agrees
+        Function that tells whether a record agrees with a study of the same name.
+    """
+
+    step: str
+    file: str
+    kind: type[Whole]
+    agrees: Callable[[Study, Whole], bool] = lambda study, found: True
+
+    def write(self, results: Results, found: Whole) -> None:
+        """Write the result."""
+        write_record(results.of_step(self.step, self.file), found)
+
+    def read(self, study: Study, results: Results) -> Whole:
+        """Return the result.
+
+        Raises
+        ------
+        DataError
+            It is missing, broken, or that of another study.
+        """
+
+        def is_ours(found: Whole) -> bool:
+            return found.study == study.name and self.agrees(study, found)
+
+        return read_record(results.of_step(self.step, self.file), self.kind, is_ours)
 
 
 def made_of(path: Path, kind: type[Kind], content: object) -> Kind:

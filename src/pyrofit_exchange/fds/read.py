@@ -19,8 +19,6 @@ COLUMNS = {
     "mass": "mass_kg_m2",
 }
 """pyrofit's names of the records of a deck, without its thickness."""
-BURNT = 2e-3
-"""Mass fraction below which FDS may end a TGA."""
 
 
 def _table(path: Path) -> pd.DataFrame:

@@ -2,9 +2,7 @@
 
 from pydantic import Field
 
-from pyrofit.config import Study
-from pyrofit.results.files import Results
-from pyrofit.results.record import Record, read_record, write_record
+from pyrofit.results.record import OfStudy, Record, StepResult
 
 FILE = "ignition.json"
 
@@ -38,22 +36,13 @@ class OfLine(Record):
     )
 
 
-class Ignition(Record):
+class Ignition(OfStudy):
     """The result."""
 
-    study: str = Field(description="name of the study")
     tests: list[OfIgnition] = Field(description="the tests")
     series: list[OfLine] = Field(description="the lines")
     left_out: list[str] = Field(description="slabs without a rate, or without a number as flux")
 
 
-def write(results: Results, found: Ignition) -> None:
-    """Write the result."""
-    write_record(results.of_step("ignition", FILE), found)
-
-
-def read(study: Study, results: Results) -> Ignition:
-    """Return the result of a study."""
-    return read_record(
-        results.of_step("ignition", FILE), Ignition, lambda found: found.study == study.name
-    )
+RESULT = StepResult("ignition", FILE, Ignition)
+write, read = RESULT.write, RESULT.read

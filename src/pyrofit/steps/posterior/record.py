@@ -7,7 +7,7 @@ from pydantic import Field
 
 from pyrofit.config import Study
 from pyrofit.results.files import Results, read_csv
-from pyrofit.results.record import Record, read_record, write_record
+from pyrofit.results.record import OfStudy, Record, StepResult
 
 FILE = "posterior.json"
 SAMPLES = "samples.csv.gz"
@@ -58,10 +58,9 @@ class OfBand(Record):
     )
 
 
-class SampledPosterior(Record):
+class SampledPosterior(OfStudy):
     """The result."""
 
-    study: str = Field(description="name of the study")
     seed: int = Field(description="seed of the draws")
     chi2: float = Field(description="chi-square of the channels at the optimum of noise alone")
     freedom: float = Field(description="its degrees of freedom")
@@ -80,25 +79,13 @@ class SampledPosterior(Record):
     bands: list[OfBand] = Field(description="the predicted signals")
 
 
-def write(results: Results, found: SampledPosterior) -> None:
-    """Write the results."""
-    write_record(results.of_step("posterior", FILE), found)
-
-
-def read(study: Study, results: Results) -> SampledPosterior:
-    """Return the results.
-
-    Raises
-    ------
-    DataError
-        It is missing, broken, or that of another study.
-    """
-    names = list(study.imp.estimate)
-
-    def is_ours(found: SampledPosterior) -> bool:
-        return found.study == study.name and [p.name for p in found.parameters] == names
-
-    return read_record(results.of_step("posterior", FILE), SampledPosterior, is_ours)
+RESULT = StepResult(
+    "posterior",
+    FILE,
+    SampledPosterior,
+    lambda study, found: [p.name for p in found.parameters] == [*study.imp.estimate],
+)
+write, read = RESULT.write, RESULT.read
 
 
 def read_correlation(study: Study, results: Results) -> pd.DataFrame:

@@ -3,9 +3,8 @@
 import pandas as pd
 from pydantic import Field
 
-from pyrofit.config import Study
 from pyrofit.results.files import Results, read_csv
-from pyrofit.results.record import Record, read_record, write_record
+from pyrofit.results.record import OfStudy, Record, StepResult
 
 FILE = "rescore.json"
 SETS = "sets.csv.gz"
@@ -39,10 +38,9 @@ class OfMeasure(Record):
     valley: dict[str, OfRange] = Field(description="the valley by parameter")
 
 
-class Rescored(Record):
+class Rescored(OfStudy):
     """The result."""
 
-    study: str = Field(description="name of the study")
     stored: int = Field(description="stored model calls that finished")
     failed: int = Field(description="stored model calls that did not finish; they are left out")
     sampled: int = Field(description="sets that were scored")
@@ -55,26 +53,13 @@ class Rescored(Record):
     measures: list[OfMeasure] = Field(min_length=1, description="the costs")
 
 
-def write(results: Results, found: Rescored) -> None:
-    """Write the results."""
-    write_record(results.of_step("rescore", FILE), found)
-
-
-def read(study: Study, results: Results) -> Rescored:
-    """Return the results.
-
-    Raises
-    ------
-    DataError
-        It is missing, broken, or that of another study.
-    """
-    estimated = set(study.imp.estimate)
-
-    def is_ours(found: Rescored) -> bool:
-        same = all(set(m.parameters) == estimated for m in found.measures)
-        return found.study == study.name and same
-
-    return read_record(results.of_step("rescore", FILE), Rescored, is_ours)
+RESULT = StepResult(
+    "rescore",
+    FILE,
+    Rescored,
+    lambda study, found: all({*m.parameters} == {*study.imp.estimate} for m in found.measures),
+)
+write, read = RESULT.write, RESULT.read
 
 
 def matrix(results: Results, name: str) -> pd.DataFrame:

@@ -5,9 +5,8 @@ from typing import Any
 import pandas as pd
 from pydantic import Field
 
-from pyrofit.config import Study
 from pyrofit.results.files import Results, read_csv
-from pyrofit.results.record import Record, read_record, write_record
+from pyrofit.results.record import OfStudy, Record, StepResult
 
 FILE = "scheme.json"
 CURVES = "curves.csv"
@@ -59,10 +58,9 @@ class OfSchemeParameter(Record):
     at_limit: bool = Field(description="the estimate is at a limit")
 
 
-class SchemeChoice(Record):
+class SchemeChoice(OfStudy):
     """The result."""
 
-    study: str = Field(description="name of the study")
     chosen: str = Field(description="identifier of the chosen scheme")
     best: str = Field(description="identifier of the scheme that predicts best")
     largest: bool = Field(description="the chosen scheme has as many reactions as were tried")
@@ -75,26 +73,13 @@ class SchemeChoice(Record):
     extended_study: str = Field(description="file of the study with the chosen scheme")
 
 
-def write(results: Results, found: SchemeChoice) -> None:
-    """Write the chosen scheme."""
-    write_record(results.of_step("scheme", FILE), found)
-
-
-def read(study: Study, results: Results) -> SchemeChoice:
-    """Return the chosen scheme.
-
-    Raises
-    ------
-    DataError
-        It is missing, broken, or that of another study.
-    """
-
-    def is_ours(found: SchemeChoice) -> bool:
-        return found.study == study.name and {found.chosen, found.best} <= {
-            scheme.name for scheme in found.schemes
-        }
-
-    return read_record(results.of_step("scheme", FILE), SchemeChoice, is_ours)
+RESULT = StepResult(
+    "scheme",
+    FILE,
+    SchemeChoice,
+    lambda study, found: {found.chosen, found.best} <= {s.name for s in found.schemes},
+)
+write, read = RESULT.write, RESULT.read
 
 
 def read_scheme_curves(results: Results) -> pd.DataFrame:

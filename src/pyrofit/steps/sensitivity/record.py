@@ -5,8 +5,7 @@ from typing import Literal
 from pydantic import Field
 
 from pyrofit.config import Study
-from pyrofit.results.files import Results
-from pyrofit.results.record import Record, read_record, write_record
+from pyrofit.results.record import OfStudy, Record, StepResult
 
 FILE = "sensitivity.json"
 CURVES = "curves.csv.gz"
@@ -55,10 +54,9 @@ class OfCost(Record):
     total: dict[str, float] = Field(description="index of total order by input")
 
 
-class Sensitivity(Record):
+class Sensitivity(OfStudy):
     """The result."""
 
-    study: str = Field(description="name of the study")
     within: Literal["limits", "near", "intervals"] = Field(
         description="where estimated parameters vary"
     )
@@ -72,23 +70,10 @@ class Sensitivity(Record):
     same: list[list[str]] = Field(description="costs with equal indices: they differ by a factor")
 
 
-def write(results: Results, found: Sensitivity) -> None:
-    """Write the results."""
-    write_record(results.of_step("sensitivity", FILE), found)
+def _agrees(study: Study, found: Sensitivity) -> bool:
+    named = {one.name for one in found.inputs if one.kind == "estimated"}
+    return named == {*study.imp.estimate}
 
 
-def read(study: Study, results: Results) -> Sensitivity:
-    """Return the results.
-
-    Raises
-    ------
-    DataError
-        It is missing, broken, or that of another study.
-    """
-    estimated = set(study.imp.estimate)
-
-    def is_ours(found: Sensitivity) -> bool:
-        named = {one.name for one in found.inputs if one.kind == "estimated"}
-        return found.study == study.name and named == estimated
-
-    return read_record(results.of_step("sensitivity", FILE), Sensitivity, is_ours)
+RESULT = StepResult("sensitivity", FILE, Sensitivity, _agrees)
+write, read = RESULT.write, RESULT.read

@@ -4,9 +4,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from pyrofit.config import Study
-from pyrofit.results.files import Results
-from pyrofit.results.record import Record, read_record, write_record
+from pyrofit.results.record import OfStudy, Record, StepResult
 
 FILE = "worth.json"
 
@@ -41,10 +39,9 @@ class OfPrediction(Record):
     signal: str = Field(description="signal")
 
 
-class Worth(Record):
+class Worth(OfStudy):
     """The result."""
 
-    study: str = Field(description="name of the study")
     points: int = Field(description="measured points so far")
     dispersion: float = Field(description="chi-square per degree of freedom, 1 at least")
     apparatus: Literal["exact", "uncertain"] = Field(description="how the apparatus is taken")
@@ -57,22 +54,7 @@ class Worth(Record):
     left_out: list[str] = Field(description="tests whose simulation does not finish")
 
 
-def write(results: Results, found: Worth) -> None:
-    """Write the results."""
-    write_record(results.of_step("worth", FILE), found)
-
-
-def read(study: Study, results: Results) -> Worth:
-    """Return the results.
-
-    Raises
-    ------
-    DataError
-        It is missing, broken, or that of another study.
-    """
-    estimated = set(study.imp.estimate)
-
-    def is_ours(found: Worth) -> bool:
-        return found.study == study.name and estimated <= set(found.estimate)
-
-    return read_record(results.of_step("worth", FILE), Worth, is_ours)
+RESULT = StepResult(
+    "worth", FILE, Worth, lambda study, found: {*study.imp.estimate} <= {*found.estimate}
+)
+write, read = RESULT.write, RESULT.read
