@@ -62,7 +62,9 @@ def like_k_T(share: float) -> FloatArray:
 
 def offered(monkeypatch: pytest.MonkeyPatch, share: float, probe: str = "front_heat_loss") -> None:
     monkeypatch.setattr(
-        module, "corrections", lambda problem, x: [correction(problem, like_k_T(share), probe)]
+        module,
+        "fitted_corrections",
+        lambda problem, x: [correction(problem, like_k_T(share), probe)],
     )
 
 

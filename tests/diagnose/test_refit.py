@@ -41,7 +41,7 @@ def ends(monkeypatch: pytest.MonkeyPatch) -> Callable[[Iterable[float]], list[Fl
             return replace(trial().fit, x=x, chi2=next(waiting))
 
         for module in (fitted, refit):
-            monkeypatch.setattr(module, "descend", descend)
+            monkeypatch.setattr(module, "descend_chi_square", descend)
         monkeypatch.setattr(fitted, "followed", lambda trial: trial)
         return begun
 

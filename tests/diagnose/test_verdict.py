@@ -38,7 +38,7 @@ ALL, MLR_25 = (0, 1, 2, 3), (0,)
 @pytest.fixture(autouse=True)
 def no_corrections(monkeypatch: pytest.MonkeyPatch) -> None:
     """Free corrections change the description, which linear models do not have."""
-    monkeypatch.setattr(other_terms, "corrections", lambda problem, x: [])
+    monkeypatch.setattr(other_terms, "fitted_corrections", lambda problem, x: [])
 
 
 def planted(seed: int = 1, **typical: float) -> FloatArray:
