@@ -11,7 +11,7 @@ from pyrofit.results.kinetics import FITTED
 from pyrofit.show.apparatus import usual_errors
 from pyrofit.show.facts import Facts
 from pyrofit.show.names import STAGES, named_estimate
-from pyrofit.show.text import listed, several
+from pyrofit.show.text import listed, number, several
 
 SEEN = 0.05
 """Part of a signal's variance from which on an assumption is said to matter."""
@@ -88,7 +88,10 @@ def _by_description(ours: list[Estimated]) -> Iterator[str]:
         )
     sure = [e for e in ours if e.grade in ("determined", AS_DESCRIBED)]
     if moved := [e for e in sure if e.rests_on_description]:
-        by = [f"{e.name} by ± {e.apparatus:.2g} {e.unit}".removesuffix(" -") for e in moved]
+        by = [
+            f"{e.name} by ± {number(float(f'{e.apparatus:.2g}'))} {e.unit}".removesuffix(" -")
+            for e in moved
+        ]
         yield (
             f"Usual errors of the apparatus move {listed(by)}, farther than the interval (standard "
             f"deviations: {usual_errors()}). Publish both."
