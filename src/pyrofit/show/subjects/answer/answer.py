@@ -21,7 +21,8 @@ def _row(study: Study, e: Estimated) -> Row:
     row: Row = {"fit": STAGES[e.stage], "parameter": e.name}
     # A column that is empty for all parameters is not shown.
     row |= {"name": study.parameters[e.name].label or None, "unit": e.unit}
-    row |= {"estimate": e.value, "low": e.low, "high": e.high, "verdict": verdict_of(e)}
+    row |= {"estimate": e.value, "low": e.low, "high": e.high, "apparatus": e.apparatus or None}
+    row["verdict"] = verdict_of(e)
     return row if study.synthetic is None else {**row, "truth": study.synthetic.truth.get(e.name)}
 
 
@@ -31,7 +32,9 @@ TABLE = Table(
     title="The answer: values, 95 % intervals and verdicts",
     note="These values maximise the likelihood, which weighs each point by its noise and holds "
     "known values. Where a model misses its tests, they are those of least squares. Exports, "
-    "predictions and the posterior take this set. Use its values together.",
-    headings={"low": "95 % low", "high": "95 % high"},
+    "predictions and the posterior take this set. Use its values together. "
+    "± by the apparatus: 1.96 standard deviations by its usual errors, which the intervals of a "
+    "model that misses the tests contain.",
+    headings={"low": "95 % low", "high": "95 % high", "apparatus": "± by the apparatus"},
     group_by="fit",
 )
