@@ -59,9 +59,9 @@ def _add_benchmark(commands: Any) -> None:
 
 
 def _benchmark_write(given: argparse.Namespace) -> None:
-    from pyrofit_blind_test.benchmark.write import write
+    from pyrofit_blind_test.benchmark.write import write_benchmark
 
-    write(given.folder, given.setting, given.plan, given.so_far, print)
+    write_benchmark(given.folder, given.setting, given.plan, given.so_far, print)
 
 
 def _benchmark_answer(given: argparse.Namespace) -> None:

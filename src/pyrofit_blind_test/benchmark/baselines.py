@@ -29,15 +29,17 @@ from pyrofit.results.files import read_csv, write_csv
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages.reading import read_all
 from pyrofit_blind_test.benchmark.score import ANSWER
-from pyrofit_blind_test.benchmark.write import Row, answer_of, sets_of
+from pyrofit_blind_test.benchmark.write import Row, answer_of, data_sets
 
 NAMES = ("none", "sparse", "aic", "bic")
 NONE: list[Row] = [{"effect": "", "sure": 0}]
 """The answer that no effect is missing."""
 RIDGE = 0.05
 """Ridge of the sparse regression, the default of PySINDy."""
+RAISE = 1.1
+"""Factor by which the limit of the sparse regression rises until few enough effects are left."""
 MOST_EFFECTS = 2
-"""Effects that forward selection adds at most; no set has more."""
+"""Effects of an answer at most; no set has more."""
 MOST_FOLLOWED = 3
 """Effects that each of its steps fits to the end, the leading ones of a rough fit of all."""
 CLEAR = 10.0
@@ -69,9 +71,11 @@ def answer_all(
     DataError
         There are no sets, or a file is broken.
     """
-    sets = sorted(sets_of(folder).glob("*/study.yaml"))[:first]
+    sets = sorted(data_sets(folder).glob("*/study.yaml"))[:first]
     if not sets:
-        raise DataError(f"{sets_of(folder)}: there are no sets; run pyrofit benchmark write first")
+        raise DataError(
+            f"{data_sets(folder)}: there are no sets; run pyrofit benchmark write first"
+        )
     answers = {name: _so_far(answer_of(folder, name)) for name in names}
     done = set.intersection(*({row["set"] for row in rows} for rows in answers.values()))
     for path in sets:
@@ -108,7 +112,7 @@ def _of_set(path: Path, names: Sequence[str]) -> Iterator[tuple[str, list[Row]]]
     wanted = [name for name in prices if name in names]
     path_taken = list(forward(setup)) if wanted else []
     for name in wanted:
-        yield name, chosen(path_taken, prices[name])
+        yield name, paying(path_taken, prices[name])
 
 
 def sparse(base: FittedModel, looks: Sequence[Screening]) -> list[Row]:
@@ -116,14 +120,19 @@ def sparse(base: FittedModel, looks: Sequence[Screening]) -> list[Row]:
 
     The part that the base parameters can make up for is taken from both, see `Screening`. An
     effect needs sqrt(log(n) + 2 log(M)) standard deviations, as one of M (Chen and Chen 2008, doi
-    10.1093/biomet/asn034). One whose strength leaves its limits is left out. No claim is sure.
+    10.1093/biomet/asn034), and more if more than two effects have that. One whose strength leaves
+    its limits is left out. No claim is sure.
     """
     seen = [look for look in looks if look.sizes[0] > 1e-9]
     if not seen:
         return NONE
     columns = np.column_stack([look.changes[:, 0] / look.sizes[0] for look in seen])
     price = functions.log(base.model.points) + 2.0 * functions.log(len(seen))
-    found = thresholded(columns, -base.fit.residuals, float(np.sqrt(price)))
+    least = float(np.sqrt(price))
+    found = thresholded(columns, -base.fit.residuals, least)
+    while len(found) > MOST_EFFECTS:
+        least *= RAISE
+        found = thresholded(columns, -base.fit.residuals, least)
     rows = []
     for k, (at, sd) in found.items():
         name, quantity = seen[k].effect, strength_of(seen[k].effect)[1]
@@ -197,7 +206,7 @@ def _roughly(model: FittedModel, look: Screening) -> FittedModel:
     return from_elsewhere(model, look, best, starts(look)[1:], rough)
 
 
-def chosen(taken: Sequence[tuple[FittedModel, float]], price: float) -> list[Row]:
+def paying(taken: Sequence[tuple[FittedModel, float]], price: float) -> list[Row]:
     """Return the answer of forward selection that pays a price for each effect.
 
     An effect is sure if it lowers the criterion by `CLEAR` more than no effect and than its rival.

@@ -27,7 +27,7 @@ class AnswerError(ValueError):
     """A file of the benchmark breaks a rule."""
 
 
-def read(path: Path, columns: Sequence[str]) -> pd.DataFrame:
+def read_rows(path: Path, columns: Sequence[str]) -> pd.DataFrame:
     """Read a table; names that are left out are empty.
 
     Raises
@@ -46,7 +46,7 @@ def read(path: Path, columns: Sequence[str]) -> pd.DataFrame:
         raise AnswerError(f"{path}: {error}; give numbers") from None
 
 
-def check(path: Path, answer: pd.DataFrame, truth: pd.DataFrame, catalogue: pd.DataFrame) -> None:
+def vet(path: Path, answer: pd.DataFrame, truth: pd.DataFrame, catalogue: pd.DataFrame) -> None:
     """Refuse an answer that does not follow the rules.
 
     Raises
@@ -71,7 +71,7 @@ def check(path: Path, answer: pd.DataFrame, truth: pd.DataFrame, catalogue: pd.D
             raise AnswerError(f"{path}, line {at + 2} ({row}): {rule}")
 
 
-def judge(answer: pd.DataFrame, truth: pd.DataFrame, catalogue: pd.DataFrame) -> pd.DataFrame:
+def judge_sets(answer: pd.DataFrame, truth: pd.DataFrame, catalogue: pd.DataFrame) -> pd.DataFrame:
     """Return one row for each set that is answered.
 
     Effects that no data can tell apart (`same_as` of the catalogue) count as one name. A claim is
@@ -135,10 +135,10 @@ def scores(sets: pd.DataFrame) -> dict[str, tuple[int, int]]:
     return found
 
 
-def interval(hits: int, of: int) -> tuple[float, float]:
+def share_interval(hits: int, of: int) -> tuple[float, float]:
     """Return the 95 % interval of a share (Wilson 1927, doi 10.1080/01621459.1927.10502953).
 
-    >>> [round(end, 3) for end in interval(0, 100)]
+    >>> [round(end, 3) for end in share_interval(0, 100)]
     [0.0, 0.037]
     """
     z2 = 1.959964**2
@@ -150,7 +150,7 @@ def interval(hits: int, of: int) -> tuple[float, float]:
 def _words(hits: int, of: int) -> str:
     if not of:
         return "–"
-    low, high = (100.0 * end for end in interval(hits, of))
+    low, high = (100.0 * end for end in share_interval(hits, of))
     return f"{hits} of {of}: {100.0 * hits / of:.0f} % ({low:.0f} to {high:.0f})"
 
 
@@ -162,20 +162,20 @@ def table(folder: Path, paths: Sequence[Path] = (), common: bool = False) -> str
     AnswerError
         A file is missing or breaks a rule.
     """
-    truth = read(folder / "truth.csv", ("set", "kind", "effect", "strength", "size_sd"))
-    catalogue = read(folder / "catalogue.csv", ("effect", "group", "same_as"))
+    truth = read_rows(folder / "truth.csv", ("set", "kind", "effect", "strength", "size_sd"))
+    catalogue = read_rows(folder / "catalogue.csv", ("effect", "group", "same_as"))
     paths = paths or sorted((folder / "answers").glob("*.csv"))
     if not paths:
         raise AnswerError(f"{folder / 'answers'}: there is no answer; put a CSV file there")
-    answers = {path.stem: read(path, ANSWER) for path in paths}
+    answers = {path.stem: read_rows(path, ANSWER) for path in paths}
     for path, answer in zip(paths, answers.values(), strict=True):
-        check(path, answer, truth, catalogue)
+        vet(path, answer, truth, catalogue)
     if common:
         shared = set.intersection(*(set(answer["set"]) for answer in answers.values()))
         answers = {name: one[one["set"].isin(shared)] for name, one in answers.items()}
     if empty := [name for name, one in answers.items() if one.empty]:
         raise AnswerError(f"{empty[0]}: there is no set to score; answer more sets")
-    judged = {name: judge(one, truth, catalogue) for name, one in answers.items()}
+    judged = {name: judge_sets(one, truth, catalogue) for name, one in answers.items()}
     columns = [scores(one) for one in judged.values()]
     rows = [["quantity", *judged], ["---"] * (len(judged) + 1)]
     rows.append(["sets", *(f"{len(one)} of {truth['set'].nunique()}" for one in judged.values())])

@@ -30,7 +30,7 @@ TRUTH = ("set", "source", "kind", "effect", "strength", "size_sd", "also_right")
 _MODEL = "The model of this data set, SI units. See README.md of the benchmark."
 
 
-def sets_of(folder: Path) -> Path:
+def data_sets(folder: Path) -> Path:
     """Return the folder of the data sets."""
     return folder / "sets"
 
@@ -40,20 +40,20 @@ def answer_of(folder: Path, name: str) -> Path:
     return folder / "answers" / f"{name}.csv"
 
 
-def size_of(setting: Setting, case: TwinPlan, places: Places) -> float:
+def hidden_size(setting: Setting, case: TwinPlan, places: Places) -> float:
     """Return by how many standard deviations of the noise the best base model misses the truth."""
     _, truth = describe_twin(setting, case)
     study, series = read_twin(places, case.id)
     return detectability(truth, series, {n: prior.sd for n, prior in study.known.items()}).size
 
 
-def write(
+def write_benchmark(
     folder: Path,
     settings: Sequence[Path],
     plan: str,
     so_far: bool = False,
     tell: Tell = lambda text: None,
-    size: Size = size_of,
+    size: Size = hidden_size,
 ) -> None:
     """Write the data sets of a plan of some settings, catalogue, scorer, and the truth.
 
@@ -114,7 +114,7 @@ def _write_set(folder: Path, setting: Setting, case: TwinPlan, places: Places) -
     """Write study, measurements and plain model of a data set, which is computed if missing."""
     if not (places.twin(case.id) / "study.yaml").is_file():
         write_twin(places, make_twin(setting, case))
-    target = sets_of(folder) / case.id
+    target = data_sets(folder) / case.id
     shutil.copytree(places.twin(case.id), target, dirs_exist_ok=True)
     study, _ = read_twin(places, case.id)
     write_text(target / "model.yaml", as_yaml(model_keys(study), _MODEL))

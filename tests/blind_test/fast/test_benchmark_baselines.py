@@ -9,7 +9,7 @@ import pytest
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.search.score_test import Screening
 from pyrofit_blind_test.benchmark import baselines
-from pyrofit_blind_test.benchmark.baselines import chosen, sparse, thresholded
+from pyrofit_blind_test.benchmark.baselines import paying, sparse, thresholded
 
 POINTS = 400
 
@@ -65,6 +65,14 @@ def test_sparse_regression_finds_the_strength_of_an_effect() -> None:
     assert row["strength"] == pytest.approx(1.0 + 0.5 / 1.05, rel=0.01)
 
 
+def test_sparse_regression_names_at_most_two_effects() -> None:
+    X = columns(3)
+    names = ("k_T", "c_T", "flux_drift")
+    looks = [look(name, 1e-6, 0.1 * X[:, k]) for k, name in enumerate(names)]
+    rows = sparse(base(-8.0 * X[:, 0] - 9.0 * X[:, 1] - 10.0 * X[:, 2]), looks)
+    assert [row["effect"] for row in rows] == ["c_T", "flux_drift"]
+
+
 def test_sparse_regression_leaves_out_what_changes_nothing() -> None:
     flat = look("k_T", 1e-4, np.zeros(POINTS))
     assert sparse(base(np.ones(POINTS)), [flat]) == baselines.NONE
@@ -94,10 +102,10 @@ def test_forward_selection_stops_where_an_effect_does_not_pay(
 ) -> None:
     monkeypatch.setattr(baselines, "strength_row", lambda m, e, sure: {"effect": e, "sure": sure})
     steps = taken(("", 100.0, np.inf), ("k_T", 75.0, 11.0), ("c_T", 70.0, 1.0))
-    assert [(row["effect"], row["sure"]) for row in chosen(steps, price)] == expected
+    assert [(row["effect"], row["sure"]) for row in paying(steps, price)] == expected
 
 
 def test_a_name_with_a_near_rival_is_not_sure(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(baselines, "strength_row", lambda m, e, sure: {"effect": e, "sure": sure})
-    (row,) = chosen(taken(("", 100.0, np.inf), ("k_T", 40.0, 9.0)), 2.0)
+    (row,) = paying(taken(("", 100.0, np.inf), ("k_T", 40.0, 9.0)), 2.0)
     assert row["sure"] == 0

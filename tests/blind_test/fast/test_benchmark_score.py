@@ -68,10 +68,10 @@ def answer(folder: Path, text: str, name: str = "mine") -> Path:
 
 
 def counts(folder: Path, text: str) -> dict[str, tuple[int, int]]:
-    truth = score.read(folder / "truth.csv", ("set",))
-    catalogue = score.read(folder / "catalogue.csv", ("effect",))
-    given = score.read(answer(folder, text), score.ANSWER)
-    return score.scores(score.judge(given, truth, catalogue))
+    truth = score.read_rows(folder / "truth.csv", ("set",))
+    catalogue = score.read_rows(folder / "catalogue.csv", ("effect",))
+    given = score.read_rows(answer(folder, text), score.ANSWER)
+    return score.scores(score.judge_sets(given, truth, catalogue))
 
 
 def test_truth_as_an_answer_has_every_point(folder: Path) -> None:
@@ -150,9 +150,9 @@ def test_missing_files_and_columns_are_named(folder: Path) -> None:
 
 def test_interval_is_that_of_wilson() -> None:
     # Wilson's interval of 1 in 2: 0.5 -+ 1.96 sqrt(0.125 + 0.24) / 2 over 1 + 1.96^2/2.
-    low, high = score.interval(1, 2)
+    low, high = score.share_interval(1, 2)
     assert (low, high) == pytest.approx((0.0945, 0.9055), abs=1e-4)
-    assert pd.Series(score.interval(0, 10)).tolist() == pytest.approx([0.0, 0.2775], abs=1e-4)
+    assert pd.Series(score.share_interval(0, 10)).tolist() == pytest.approx([0.0, 0.2775], abs=1e-4)
 
 
 def test_scorer_runs_alone_and_is_short(folder: Path) -> None:

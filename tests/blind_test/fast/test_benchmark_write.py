@@ -15,7 +15,7 @@ from pyrofit.model.material import Material
 from pyrofit_blind_test.benchmark import score
 from pyrofit_blind_test.benchmark import write as writing
 from pyrofit_blind_test.benchmark.plain import catalogue_table, model_keys
-from pyrofit_blind_test.benchmark.write import answer_rows, write
+from pyrofit_blind_test.benchmark.write import answer_rows, write_benchmark
 from pyrofit_blind_test.places import Places, folder_of
 from pyrofit_blind_test.plan import TwinPlan, cases_of
 from pyrofit_blind_test.setting import Setting, read_setting
@@ -47,12 +47,12 @@ def folder(tmp_path_factory: pytest.TempPathFactory, few: tuple[TwinPlan, ...]) 
         diagnosed = Places(folder_of(FDS, PLAN)).case(few[0].id)
         diagnosed.parent.mkdir(parents=True)
         diagnosed.write_text(json.dumps(finding(few[0].id) | {"detectability": 7.0}))
-        write(root / "all", [FDS], PLAN, size=size)
-        write(root / "again", [FDS], PLAN, size=size)
-        write(root / "few", [FDS], PLAN, so_far=True, size=size)
+        write_benchmark(root / "all", [FDS], PLAN, size=size)
+        write_benchmark(root / "again", [FDS], PLAN, size=size)
+        write_benchmark(root / "few", [FDS], PLAN, so_far=True, size=size)
         diagnosed.unlink()
         with pytest.raises(DataError, match="has been diagnosed; leave out --so-far"):
-            write(root / "none", [FDS], PLAN, so_far=True, size=size)
+            write_benchmark(root / "none", [FDS], PLAN, so_far=True, size=size)
     return root
 
 
@@ -81,7 +81,7 @@ def test_sets_hold_what_their_model_names(folder: Path, few: tuple[TwinPlan, ...
 
 
 def test_only_the_file_of_the_truth_tells_it(folder: Path, few: tuple[TwinPlan, ...]) -> None:
-    truth = score.read(folder / "all" / "truth.csv", writing.TRUTH)
+    truth = score.read_rows(folder / "all" / "truth.csv", writing.TRUTH)
     for case in few:
         of = truth[truth["set"] == case.id]
         assert set(of["effect"]) == set(case.hidden or {""})
@@ -111,7 +111,7 @@ def test_diagnosed_sets_alone_have_the_answer_of_pyrofit(
     folder: Path, few: tuple[TwinPlan, ...]
 ) -> None:
     assert [p.name for p in (folder / "few" / "sets").iterdir()] == [few[0].id]
-    answer = score.read(folder / "few" / "answers" / "pyrofit.csv", score.ANSWER)
+    answer = score.read_rows(folder / "few" / "answers" / "pyrofit.csv", score.ANSWER)
     assert answer.to_dict("records") == answer_rows(finding(few[0].id))
     assert "| sets | 1 of 1 |" in score.table(folder / "few")
 

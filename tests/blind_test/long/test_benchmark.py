@@ -31,11 +31,11 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def answer(folder: Path, name: str) -> pd.DataFrame:
-    return score.read(folder / "answers" / f"{name}.csv", score.ANSWER)
+    return score.read_rows(folder / "answers" / f"{name}.csv", score.ANSWER)
 
 
 def test_size_of_the_effect_is_that_of_its_curves(folder: Path) -> None:
-    truth = score.read(folder / "truth.csv", writing.TRUTH).set_index("kind")
+    truth = score.read_rows(folder / "truth.csv", writing.TRUTH).set_index("kind")
     assert truth.loc["null", "size_sd"] < 1e-3
     assert truth.loc["effect", "size_sd"] > 3.0
 
@@ -49,7 +49,7 @@ def test_every_baseline_answers_every_set(folder: Path) -> None:
 
 
 def test_forward_selection_finds_an_effect_where_one_is(folder: Path) -> None:
-    truth = score.read(folder / "truth.csv", writing.TRUTH)
+    truth = score.read_rows(folder / "truth.csv", writing.TRUTH)
     large = truth["set"][truth["kind"] == "effect"].item()
     found = answer(folder, "bic")
     rows = found[found["set"] == large]
