@@ -21,9 +21,7 @@ from pyrofit.show.page import pages_of_steps
 from pyrofit.show.report import write_report
 from pyrofit.steps.stability import record as stability
 from pyrofit.steps.stability.facts import read
-from pyrofit.steps.stability.figures import draw_shares
-from pyrofit.steps.stability.page import PAGE
-from pyrofit.steps.stability.sentences import sentences
+from pyrofit.steps.stability.page import PAGE, draw_shares, sentences
 
 REASON = "its strength is at a limit"
 VERDICTS: tuple[tuple[str, list[list[str]], list[str]], ...] = (

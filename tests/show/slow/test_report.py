@@ -31,7 +31,7 @@ from pyrofit.steps.preview.inputs import INPUTS
 from pyrofit.steps.rescore import record as rescored
 from pyrofit.steps.rescore.page import PAGE as RESCORE
 from pyrofit.steps.robustness.options import RobustnessOptions
-from pyrofit.steps.robustness.table import TABLE as ROBUSTNESS
+from pyrofit.steps.robustness.page import TABLE as ROBUSTNESS
 
 
 def test_report_has_all_sections_and_figures(tmp_path: Path) -> None:

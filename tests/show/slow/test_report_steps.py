@@ -14,7 +14,7 @@ from pyrofit.show.table import write_table
 from pyrofit.steps.sensitivity import record as sensitivity
 from pyrofit.steps.sensitivity.tables import TABLES as OF_SENSITIVITY
 from pyrofit.steps.worth import record as worth
-from pyrofit.steps.worth.tables import TABLES as OF_WORTH
+from pyrofit.steps.worth.page import TABLES as OF_WORTH
 
 
 def write_sensitivity(study: Study, results: Results) -> None:

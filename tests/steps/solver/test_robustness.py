@@ -14,8 +14,7 @@ from pyrofit.config import Study
 from pyrofit.results.files import Results, read_csv, write_csv
 from pyrofit.stages import fit, identify, measurements
 from pyrofit.steps.robustness import compute as robustness
-from pyrofit.steps.robustness.page import PAGE
-from pyrofit.steps.robustness.sentences import sentences
+from pyrofit.steps.robustness.page import PAGE, sentences
 from pyrofit.steps.robustness.twins import NOISE, OUTLIERS, errors_of_twins, recovered, true_set
 
 SMALL = {"noise": [0.001, 2.0], "outliers": [0.2], "draws": 1, "starts": 1}

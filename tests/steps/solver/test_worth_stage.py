@@ -25,9 +25,8 @@ from pyrofit.steps.worth.apparatus import lasting_of
 from pyrofit.steps.worth.best_fit import best_fit
 from pyrofit.steps.worth.compute import run
 from pyrofit.steps.worth.facts import share_left
-from pyrofit.steps.worth.page import PAGE
+from pyrofit.steps.worth.page import PAGE, sentences
 from pyrofit.steps.worth.planned import Planned, planned
-from pyrofit.steps.worth.sentences import sentences
 
 TRUTH = {"rho": 1190.0, "k": 0.2, "cp": 2100.0, "eps": 0.9, "dh": 800e3}
 DRAWS = 6
