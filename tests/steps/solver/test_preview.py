@@ -18,12 +18,13 @@ from pyrofit.results.files import Results, write_csv
 from pyrofit.stages.measurements import computed
 from pyrofit.steps.preview import reach
 from pyrofit.steps.preview.compute import OF_REPEATS, all_simulated, preview, windows
-from pyrofit.steps.preview.corrections import possible_corrections
+from pyrofit.steps.preview.corrections import WEIGHT, LikelyCause, possible_corrections
 from pyrofit.steps.preview.figures import draw_experiments
 from pyrofit.steps.preview.fit import nearest
 from pyrofit.steps.preview.inputs import INPUTS
 from pyrofit.steps.preview.page import PAGE
 from pyrofit.steps.preview.reach import (
+    NOISE,
     OF_BAND,
     OF_RANGE,
     RecordedCases,
@@ -144,6 +145,32 @@ def test_corrections_undo_what_their_words_say() -> None:
     rest = [one.words for one in possible_corrections(case, [channel], [])]
     assert not any("10 times too large: area" in words for words in rest)
     assert any("4 times too large: area" in words for words in rest)
+
+
+def weighed(second: float) -> tuple[RecordedCases, list[LikelyCause]]:
+    """Return slabs of 7 kg/m2 and another mass, and the causes that their masses are."""
+    study, _ = smoke()
+    frames = {}
+    experiments = {}
+    for name, mass in (("slab_25", 7.0), ("slab_60", second)):
+        slab = study.experiments[name]
+        assert isinstance(slab, SlabExperiment)
+        experiments[name] = changed(slab, signals={"mass": slab.signals["mlr"]})
+        frame = pd.DataFrame({"time_s": [0.0, 9.0], "mass_kg_m2": [mass, 0.1 * mass]})
+        frames[name, "mass"] = frame.assign(**{NOISE: 0.01})
+    case = RecordedCases(experiments, frames)
+    causes = possible_corrections(case, [("slab_25", "mass")], [])
+    return case, [one for one in causes if one.cause == WEIGHT]
+
+
+def test_samples_described_alike_that_weigh_differently_are_a_cause() -> None:
+    case, (cause,) = weighed(9.0)
+    assert cause.places == ("slab_25", "slab_60")
+    assert cause.words.startswith("samples described alike weigh 7 to 9 kg/m². Give each")
+    made = cause.change(case).experiments
+    factors = [made[name].sample.density_factor for name in cause.places]  # type: ignore[attr-defined]
+    assert factors == pytest.approx([7.0 / 8.0, 9.0 / 8.0])
+    assert weighed(7.1)[1] == []
 
 
 def test_clock_is_not_late_by_more_than_the_record_is_flat() -> None:

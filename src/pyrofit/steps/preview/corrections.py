@@ -1,6 +1,6 @@
 """Errors of a description or a file, each as the correction that would undo it."""
 
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
@@ -29,7 +29,9 @@ TEMPERATURE, FLUX, THICKNESS = "unit of temperature", "flux", "thickness"
 CLOCK, RATE, SWAPPED = "clock", "heating rate", "swapped files"
 SAMPLE, SURROUNDINGS, LIMITS = "sample area or mass", "gas or wall temperature", "limits"
 BASELINE, PLACE = "baseline of the heat flow", "place of a thermocouple"
+WEIGHT = "mass of the samples"
 ORDER = (
+    WEIGHT,
     TEMPERATURE,
     FLUX,
     THICKNESS,
@@ -52,6 +54,8 @@ FLAT = 0.1
 """Change of a record before the start of a test at most, over its range: without a flux nothing
 happens. A shift that leaves the test itself out would explain everything."""
 ROOM_K = 293.15
+UNEQUAL = 1.05
+"""Ratio of the largest to the smallest mass of samples described alike, from which on it counts."""
 USUAL_K = (250.0, 450.0)
 """Temperatures of gas and walls that need no explanation."""
 
@@ -97,6 +101,7 @@ def possible_corrections(
     for name in names:
         of = [signal for experiment, signal in outside if experiment == name]
         yield from _of_one(case, name, of, mostly)
+    yield from _weights(case, names)
     yield from _baselines(case, outside)
     yield from _places(case, outside)
     yield from _swaps(case, names)
@@ -244,6 +249,41 @@ def _samples(
                 "of the sample, or the unit",
                 column_changed(name, alike, "", multiplied(factor)),
             )
+
+
+def _weights(case: RecordedCases, outside: Collection[str]) -> Iterator[LikelyCause]:
+    """Yield that samples described alike have other masses: each then has a density of its own."""
+    groups: dict[str, dict[str, float]] = {}
+    for name, experiment in case.experiments.items():
+        if not isinstance(experiment, SlabExperiment):
+            continue
+        for signal in case.signals(name):
+            if experiment.quantity(signal).name == "mass":
+                column = case.frames[name, signal][experiment.quantity(signal).column]
+                like = experiment.sample.model_dump_json()
+                groups.setdefault(like, {})[name] = float(column.iloc[0])
+    for masses in groups.values():
+        least, most = min(masses.values()), max(masses.values())
+        if 0.0 < UNEQUAL * least <= most and not masses.keys().isdisjoint(outside):
+            yield LikelyCause(
+                WEIGHT,
+                tuple(masses),
+                f"samples described alike weigh {least:.3g} to {most:.3g} kg/m². Give each test "
+                "and repeat its `sample: {density_factor: ...}`, its mass over the mean one",
+                _weighed(masses),
+            )
+
+
+def _weighed(masses: Mapping[str, float]) -> Change:
+    """Return the change of the densities to those of the masses, over the median."""
+    middle = float(np.median(list(masses.values())))
+
+    def change(case: RecordedCases) -> RecordedCases:
+        for name, mass in masses.items():
+            case = part_changed(name, "sample", "density_factor", mass / middle)(case)
+        return case
+
+    return change
 
 
 def _baselines(case: RecordedCases, outside: Sequence[Channel]) -> Iterator[LikelyCause]:
