@@ -25,7 +25,7 @@ from pyrofit_compare.published import (
 from pyrofit_exchange.macfp.material import strict_of
 from pyrofit_exchange.macfp.numeric import numeric_material
 from pyrofit_explore.model import pose_model
-from pyrofit_explore.published import PublishedSets
+from pyrofit_explore.run import PublishedSets
 
 SMOKE = Path(__file__).parents[2] / "config" / "smoke.yaml"
 TRUTH = yaml.safe_load(SMOKE.read_text())["synthetic"]["truth"]

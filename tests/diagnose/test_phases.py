@@ -13,8 +13,8 @@ from pyrofit.diagnose.diagnosis import DiagnosisWork
 from pyrofit.diagnose.result import phases
 from pyrofit.diagnose.result.phases import course_of_channel, describe_windows
 from pyrofit.experiments.base import PHASES
-from pyrofit.experiments.heated.course import of_mass
-from pyrofit.experiments.slab.course import of_curves
+from pyrofit.experiments.heated.kind import of_mass
+from pyrofit.experiments.slab.kind import of_curves
 
 TIME = np.arange(0.0, 1001.0)
 

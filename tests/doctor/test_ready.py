@@ -14,8 +14,8 @@ import pytest
 from pyrofit import cli
 from pyrofit.config import Study, read_study
 from pyrofit.doctor import machine, plan, report, slurm, timing
-from pyrofit.doctor.data import check_data
 from pyrofit.doctor.finding import Check, ReadyLine, Situation
+from pyrofit.doctor.report import check_data
 from pyrofit.doctor.timing import Timed, duration, estimate_of
 from pyrofit.doctor.whole_run import PartOfRun, processor_s
 from pyrofit.estimate.calls import optimiser_calls, sceua_calls

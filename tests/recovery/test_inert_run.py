@@ -12,7 +12,7 @@ from pyrofit.config import Study, as_study
 from pyrofit.estimate.identify import Identification, identify
 from pyrofit.estimate.likelihood import likelihood_of
 from pyrofit.estimate.problem import make_problem
-from pyrofit.experiments.slab.course import course
+from pyrofit.experiments.slab.kind import course
 from pyrofit.model.accuracy import Accuracy
 from pyrofit.simulate import simulate_gasification
 from pyrofit.solver.curves import Request

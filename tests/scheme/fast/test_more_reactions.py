@@ -12,7 +12,7 @@ from pyrofit.results import goodness
 from pyrofit.results.files import Results
 from pyrofit.results.goodness import Goodness
 from pyrofit.scheme.settings import SchemeSettings
-from pyrofit.stages.more_reactions import more_reactions
+from pyrofit.stages.isoconversional import more_reactions
 
 FEW = SchemeSettings(points=40, most_reactions=2, branches=1, random_starts=1, rounds=1)
 PARTS = [(0.5, 150e3, 560.0), (0.5, 200e3, 640.0)]

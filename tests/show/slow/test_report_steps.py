@@ -12,7 +12,7 @@ from pyrofit.results.step import write_options
 from pyrofit.show.report import write_report
 from pyrofit.show.table import write_table
 from pyrofit.steps.sensitivity import record as sensitivity
-from pyrofit.steps.sensitivity.tables import TABLES as OF_SENSITIVITY
+from pyrofit.steps.sensitivity.page import TABLES as OF_SENSITIVITY
 from pyrofit.steps.worth import record as worth
 from pyrofit.steps.worth.page import TABLES as OF_WORTH
 

@@ -21,7 +21,7 @@ from pyrofit.results import recorded, searches
 from pyrofit.results.files import Results, read_csv, write_csv
 from pyrofit.show.facts import facts_of
 from pyrofit.show.sections import TABLES
-from pyrofit.show.subjects.costs.reach import reach_of_good_sets as good_sets
+from pyrofit.show.subjects.costs.sentences import reach_of_good_sets as good_sets
 from pyrofit.show.subjects.costs.sentences import sentences as costs
 from pyrofit.show.subjects.optimisation.sentences import sentences as optimisers
 from pyrofit.solver.arrays import FloatArray

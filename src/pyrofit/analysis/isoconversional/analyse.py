@@ -7,12 +7,69 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.analysis.isoconversional.curve import Curve
-from pyrofit.analysis.isoconversional.friedman import friedman
-from pyrofit.analysis.isoconversional.kas import kas
 from pyrofit.analysis.isoconversional.levels import LEVELS, RecordsAtLevels, runs_of
-from pyrofit.analysis.isoconversional.line import Energies
+from pyrofit.analysis.isoconversional.line import Energies, Points, slopes
 from pyrofit.analysis.isoconversional.vyazovkin import vyazovkin
+from pyrofit.constants import GAS_CONSTANT
+from pyrofit.numerics import functions
 from pyrofit.solver.arrays import FloatArray
+
+
+def kas(runs: RecordsAtLevels, temperature_sd_K: float) -> Energies:
+    """Return E [J/mol] of the records of a constant heating rate, at levels of conversion.
+
+    Parameters
+    ----------
+    runs
+        The records; those without a constant rate do not count.
+    temperature_sd_K
+        Standard deviation of the temperature of a record.
+    """
+    constant = np.array([curve.rate_K_min is not None for curve in runs.curves])
+    rate = np.array([_measured_rate(runs, i) for i in range(len(runs.curves))])
+    temperature = np.where(constant[:, None], runs.stacked("temperature_K"), np.nan)
+    x = 1.0 / (GAS_CONSTANT * temperature)
+    y = functions.log(rate[:, None] / (temperature * temperature))
+    first = slopes(Points(x, y, np.zeros(x.shape)), runs.groups)
+    shift = rate[:, None] * runs.stacked("time_sd")
+    per_kelvin = first.value * x / temperature + 2.0 / temperature
+    sd = per_kelvin * np.sqrt(shift * shift + temperature_sd_K**2)
+    return slopes(Points(x, y, sd), runs.groups)
+
+
+def _measured_rate(runs: RecordsAtLevels, i: int) -> float:
+    """Return the mean heating rate [K/s] of a record between its first and last level."""
+    time, temperature = runs.at[i].time_s, runs.at[i].temperature_K
+    known = np.flatnonzero(np.isfinite(time))
+    if known.size < 2:
+        return float("nan")
+    first, last = known[0], known[-1]
+    rise = float(temperature[last] - temperature[first])
+    return rise / float(time[last] - time[first]) if rise > 0.0 else float("nan")
+
+
+def friedman(runs: RecordsAtLevels, temperature_sd_K: float) -> Energies:
+    """Return E [J/mol] of records at levels of conversion.
+
+    Parameters
+    ----------
+    runs
+        The records.
+    temperature_sd_K
+        Standard deviation of the temperature of a record.
+    """
+    temperature, rate = runs.stacked("temperature_K"), runs.stacked("rate")
+    x = 1.0 / (GAS_CONSTANT * temperature)
+    y = functions.log(rate)
+    first = slopes(Points(x, y, np.zeros(x.shape)), runs.groups)
+    # A shift of the time at which a level is reached moves the temperature there as well.
+    shift = runs.stacked("heating_K_s") * runs.stacked("time_sd")
+    per_kelvin = first.value * x / temperature
+    of_rate = runs.stacked("log_rate_sd")
+    square = of_rate * of_rate
+    square = square + per_kelvin * per_kelvin * (shift * shift + temperature_sd_K**2)
+    return slopes(Points(x, y, np.sqrt(square)), runs.groups)
+
 
 METHODS: dict[str, Callable[[RecordsAtLevels, float], Energies]] = {
     "friedman": friedman,

@@ -10,11 +10,36 @@ from pyrofit.analysis.best_predicting import best_predicting, never_fitted, of_a
 from pyrofit.analysis.cost_tests import SIGNIFICANT
 from pyrofit.analysis.uses import PUBLISHED, rate_metrics
 from pyrofit.config import Study
+from pyrofit.results.comparison import ALL
 from pyrofit.show.facts import Facts
 from pyrofit.show.names import all_scored
-from pyrofit.show.subjects.costs.reach import reach_of_good_sets
 from pyrofit.show.table import Frames
 from pyrofit.show.text import listed, number, several, span
+
+
+def reach_of_good_sets(tables: Frames) -> str:
+    """Say how far the good sets reach, and which share of the data lies within."""
+    table = tables["bands"]
+    names = table["cost_function"]
+    table = table[names == (ALL if ALL in set(names) else names.iloc[0])]
+    parts = [
+        f"{row['signal']} at {row['experiment']} {_width(row)} ({row['within_percent']:.0f} % "
+        "of the measured points lie inside)"
+        for _, row in table.iterrows()
+    ]
+    return f"Mean width of the predictions of the good sets: {'; '.join(parts)}."
+
+
+def _width(row: pd.Series) -> str:
+    if pd.notna(row["width_percent"]):
+        return f"{row['width_percent']:.2g} % of the mean"
+    (column,) = (
+        str(name)
+        for name in row.index
+        if str(name).startswith("width") and name != "width_percent" and pd.notna(row[name])
+    )
+    unit = "K" if column == "width_K" else column.partition("[")[2].rstrip("]")
+    return f"{row[column]:.2g} {unit}"
 
 
 def sentences(study: Study, facts: Facts) -> list[str]:
