@@ -166,7 +166,7 @@ def test_bands_of_all_signals_enclose_their_medians(study: Study, results: Resul
 
 def test_page_has_figures_tables_and_the_ensemble(study: Study, results: Results) -> None:
     shown = PAGE.section(study, results)
-    assert [type(part).__name__ for part in shown.parts] == ["Picture"] * 2 + ["Part"] * 3
+    assert [type(part).__name__ for part in shown.parts] == ["Picture"] * 2 + ["Passage"] * 3
     assert "use the ensemble of 12 sets" in shown.said[-1]
     assert any("No fitted signal determines the model discrepancy" in line for line in shown.said)
     table = results.of_step("posterior", "table_parameters.md").read_text()

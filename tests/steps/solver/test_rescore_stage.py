@@ -140,7 +140,7 @@ def test_two_processes_leave_the_same_bytes(
 
 def test_page_has_figures_numbers_and_table(study: Study, results: Results) -> None:
     shown = PAGE.section(study, results)
-    assert [type(part).__name__ for part in shown.parts] == ["Picture"] * 3 + ["Part"]
+    assert [type(part).__name__ for part in shown.parts] == ["Picture"] * 3 + ["Passage"]
     assert shown.said[0].startswith("60 of ")
     for name in ("agreement", "agreement_best", "regret", "valleys"):
         assert results.of_step("rescore", f"{name}.png").stat().st_size > 0

@@ -153,7 +153,7 @@ def test_near_and_intervals_lie_about_the_estimates(
 
 def test_page_has_figures_numbers_and_table(study: Study, results: Results) -> None:
     shown = PAGE.section(study, results)
-    assert [type(part).__name__ for part in shown.parts] == ["Picture"] * 3 + ["Part"]
+    assert [type(part).__name__ for part in shown.parts] == ["Picture"] * 3 + ["Passage"]
     assert "estimated parameters over their limits" in shown.said[0]
     for name in ("total", "apparatus", "first", "costs"):
         assert results.of_step("sensitivity", f"{name}.png").stat().st_size > 0

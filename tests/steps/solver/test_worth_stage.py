@@ -212,7 +212,7 @@ def test_two_processes_leave_the_same_bytes(study: Study, results: Results, tmp_
 
 def test_page_has_figure_table_and_sentences(study: Study, made: tuple[Results, str]) -> None:
     shown = PAGE.section(study, made[0])
-    assert [type(part).__name__ for part in shown.parts] == ["Picture", "Part"]
+    assert [type(part).__name__ for part in shown.parts] == ["Picture", "Passage"]
     assert made[1].splitlines() == sentences(study, made[0]) == list(shown.said)
     assert "narrows parameters and predictions most" in shown.said[0]
     assert "The best 3 were checked by refits of 6 drawn data sets" in shown.said[1]
