@@ -184,8 +184,9 @@ def _of_wrong_model(likelihood: Likelihood, x: FloatArray, tested: Goodness) -> 
     posterior = likelihood.posterior(x, slopes)
     apparatus = sds_of_apparatus(plain, x, slopes)
     misfit = sds_of_misfit(likelihood, plain, x, slopes, curves)
-    sds = np.sqrt(misfit**2 + apparatus**2).tolist()
-    of_noise = np.sqrt(np.diag(posterior.covariance(None, 1.0))).tolist()
+    of_noise = np.sqrt(np.diag(posterior.covariance(None, 1.0)))
+    # Few repeats may hide more than the misfit shows.
+    sds = np.hypot(np.maximum(misfit, of_noise), apparatus).tolist()
     estimates = tuple(
         Estimate(
             name,
@@ -198,7 +199,12 @@ def _of_wrong_model(likelihood: Likelihood, x: FloatArray, tested: Goodness) -> 
             limit_of(at),
         )
         for name, at, sd, sd_of_apparatus, s in zip(
-            likelihood.problem.names, x.tolist(), sds, apparatus.tolist(), of_noise, strict=True
+            likelihood.problem.names,
+            x.tolist(),
+            sds,
+            apparatus.tolist(),
+            of_noise.tolist(),
+            strict=True,
         )
     )
     residuals = likelihood.residuals(x)

@@ -11,6 +11,7 @@ from pyrofit.results.kinetics import FITTED
 from pyrofit.show.apparatus import usual_errors
 from pyrofit.show.facts import Facts
 from pyrofit.show.names import STAGES, named_estimate
+from pyrofit.show.subjects.answer.next_steps import is_physical
 from pyrofit.show.text import listed, number, several
 
 SEEN = 0.05
@@ -22,7 +23,7 @@ def publishable(study: Study, facts: Facts) -> Iterator[str]:
     """Yield the limits that were reached, then the parameters by verdict, then the assumptions."""
     ours = one_each(study, facts.estimates)
     yield from _at_limits([e for e in ours if e.bound])
-    yield _by_verdict(ours)
+    yield _by_verdict(study, ours)
     yield from _by_description(ours)
     yield from _far_from_known(facts)
     yield from _kinetics_of_imp(study)
@@ -41,7 +42,8 @@ def _at_limits(found: list[Estimated]) -> Iterator[str]:
         )
 
 
-def _by_verdict(ours: list[Estimated]) -> str:
+def _by_verdict(study: Study, ours: list[Estimated]) -> str:
+    at_limits = {e.stage for e in ours if e.bound and not _is_none(study, e)}
     groups: dict[str, list[Estimated]] = {}
     for e in ours:
         groups.setdefault(e.grade, []).append(e)
@@ -50,7 +52,7 @@ def _by_verdict(ours: list[Estimated]) -> str:
         text = (
             f"The data determine {len(sure)} of {several(len(ours), 'parameter')}: "
             f"{listed([e.name for e in sure])} (95 % interval narrower than 20 % of the search "
-            f"range). {_to_publish(sure, {e.stage for e in ours if e.bound})}"
+            f"range). {_to_publish(sure, at_limits)}"
         )
     elif "apparent value" in groups:
         text = "No value can be published as a property of the material from this model."
@@ -65,6 +67,11 @@ def _by_verdict(ours: list[Estimated]) -> str:
     if loose:
         text += f" Do not quote {listed(loose)} alone: other values fit as well."
     return text
+
+
+def _is_none(study: Study, e: Estimated) -> bool:
+    """Tell whether it is a share of 0, which is no limit of the search alone."""
+    return e.bound == "lower" and is_physical(study.parameters[e.name], e.bound)
 
 
 def _to_publish(sure: list[Estimated], at_limits: set[str]) -> str:
