@@ -211,6 +211,18 @@ def read_setting(path: Path) -> Setting:
     return setting.model_copy(update=found)
 
 
+def plan_digest(setting: Setting, name: str) -> str:
+    """Return a digest of all that the twins of a plan depend on, the source excepted.
+
+    Raises
+    ------
+    StudyError
+        There is no such plan, or the base study is missing or no YAML.
+    """
+    twins = setting.model_dump(exclude={"plans"})
+    return digest([twins, files_digest(setting), setting.plan(name).model_dump()])
+
+
 def files_digest(setting: Setting) -> str:
     """Return a digest of the files that a setting refers to.
 

@@ -180,7 +180,7 @@ def test_edited_source_runs_again_what_it_computes(project: Project) -> None:
 
 
 def test_edited_figure_computes_nothing_again(project: Project) -> None:
-    source = project.root / "src" / "pyrofit" / "show" / "validation" / "fig3.py"
+    source = project.root / "src" / "pyrofit" / "show" / "subjects" / "validation" / "fig3.py"
     before = source.read_text()
     source.write_text(before + "EDITED = True\n")
     try:
