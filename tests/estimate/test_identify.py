@@ -65,6 +65,25 @@ def test_estimate_that_the_data_push_out_of_its_limits_is_at_its_bound() -> None
     assert 1.0 - estimate.noise.low == pytest.approx((np.sqrt(7.8416) - 2.0) * sd, rel=0.02)
 
 
+@pytest.mark.parametrize(
+    ("slope", "limits", "verdict_of_a"),
+    [
+        (2.0, (0.0, 1.97), "weakly determined"),
+        (2.0, (0.0, 4.0), "determined"),
+        (0.03, (0.09, 2.0), "weakly determined"),
+        (-0.03, (0.0, 2.0), "determined"),  # no number goes beyond 0
+    ],
+)
+def test_value_that_rests_on_a_limit_reached_is_weakly_determined(
+    slope: float, limits: tuple[float, float], verdict_of_a: str
+) -> None:
+    value = LINE @ [1.0, slope] + 0.1 * WHITE
+    posed = likelihood(lambda x: LINE @ x, value, 0.1, ((0.0, 2.0), limits))
+    found = by_name(identify(posed, [np.array([0.5, 0.5])]))
+    assert found["a"].interval.width < 0.03
+    assert found["a"].verdict == verdict_of_a
+
+
 def test_profile_of_a_square_is_the_exact_one() -> None:
     # y = a^2, a in [0, 1]: chi2 rises by n (a^2 - m)^2 / sd^2, m the mean. sd as large as this
     # makes the interval wide and lopsided.

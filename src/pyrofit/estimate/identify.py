@@ -34,7 +34,9 @@ RESTARTS = 3
 """How often a lower chi-square found by a profile starts the analysis again."""
 LOWER = 0.01
 """A chi-square is lower if it is so by more."""
-SURE = "determined"
+BEYOND = 0.1
+"""How far a parameter at a limit is thought to lie beyond it, as a fraction of the search range."""
+SURE, WEAK = "determined", "weakly determined"
 LINEAR, PROFILE, MISFIT = "linear", "profile", "misfit"
 """How an interval was made, see `Estimate`."""
 
@@ -73,11 +75,16 @@ class Estimate:
     interval: Interval
     method: str
     bound: str
+    tied: bool = False
+    """Whether another parameter is at a limit, and would move this one out of its interval if it
+    went beyond by `BEYOND`."""
 
     @property
     def verdict(self) -> str:
         """Whether the data determine it, in words."""
         found = verdict(self.interval.width, self.bound, self.method != MISFIT)
+        if found == SURE and self.tied:
+            return WEAK
         with_apparatus = math.hypot(self.interval.width, 2.0 * QUANTILE * self.apparatus)
         return AS_DESCRIBED if found == SURE and with_apparatus > DETERMINED else found
 
@@ -99,7 +106,7 @@ def verdict(width: float, bound: str, fits: bool = True) -> str:
         return f"at its {bound} limit"
     if not fits:
         return APPARENT
-    return SURE if width <= DETERMINED else "weakly determined"
+    return SURE if width <= DETERMINED else WEAK
 
 
 @dataclass(frozen=True, eq=False)
@@ -246,12 +253,17 @@ def _around(
     lowest = optimum
     apparatus = likelihood.whiten(moves(likelihood, optimum.x))
     J = posterior.jacobian[: posterior.residuals.size]
+    # A number that cannot be negative does not go beyond 0.
+    ends = [k for k, v in enumerate(optimum.x) if limit_of(v)]
+    lower = likelihood.problem.lower
+    ends = [k for k in ends if lower[k] != 0.0 or limit_of(optimum.x[k]) == "upper"]
     estimates = []
     profiles = {}
     for i, (name, x) in enumerate(zip(likelihood.problem.names, optimum.x.tolist(), strict=True)):
         # A parameter that rests at a limit does not move with the others.
         free = [k for k, v in enumerate(optimum.x) if k == i or not limit_of(v)]
         at = free.index(i)
+        fixed = [k for k in ends if k != i]
         # Chi-square rises by the covariance without errors that it does not weigh.
         covariance = replace(posterior, hidden=None).covariance(free)
         wider = float(posterior.widening(free)[at])
@@ -272,7 +284,10 @@ def _around(
             method = PROFILE
         of_apparatus = variances(covariance / dispersion, J[:, free], apparatus)
         more = float(np.sqrt(of_apparatus[at]))
-        estimates.append(Estimate(name, x, sd, more, noise, wide, method, limit_of(x)))
+        reach = max(wide.high - x, x - wide.low)
+        away = BEYOND * np.abs(linear.product(covariance, J[:, free].T, J[:, fixed])) / dispersion
+        tied = bool(np.any(away[at] > reach))
+        estimates.append(Estimate(name, x, sd, more, noise, wide, method, limit_of(x), tied))
     return tuple(estimates), profiles, lowest
 
 
