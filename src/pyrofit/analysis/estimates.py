@@ -8,7 +8,7 @@ import pandas as pd
 
 from pyrofit.config import Study
 from pyrofit.constants import QUANTILE
-from pyrofit.results.goodness import APPARENT, AS_DESCRIBED
+from pyrofit.results.goodness import APPARENT, AS_DESCRIBED, MISFIT
 from pyrofit.results.identification import Identified
 
 Grade = Literal[
@@ -88,7 +88,7 @@ class Estimated:
 
         The interval of a model that misses the tests has them.
         """
-        apart = self.method != "misfit"
+        apart = self.method != MISFIT
         return apart and self.apparatus > max(self.high - self.value, self.value - self.low)
 
     @property

@@ -20,7 +20,7 @@ from pyrofit.estimate.profile import Interval, Profile, profile_of
 from pyrofit.estimate.uncertain_apparatus import moves, variances
 from pyrofit.estimate.wrong_model import least_squares, sds_of_apparatus, sds_of_misfit
 from pyrofit.numerics import linear
-from pyrofit.results.goodness import APPARENT, AS_DESCRIBED, Goodness
+from pyrofit.results.goodness import APPARENT, AS_DESCRIBED, MISFIT, Goodness
 from pyrofit.solver.arrays import FloatArray
 
 DETERMINED = 0.20
@@ -37,7 +37,7 @@ LOWER = 0.01
 BEYOND = 0.1
 """How far a parameter at a limit is thought to lie beyond it, as a fraction of the search range."""
 SURE, WEAK = "determined", "weakly determined"
-LINEAR, PROFILE, MISFIT = "linear", "profile", "misfit"
+LINEAR, PROFILE = "linear", "profile"
 """How an interval was made, see `Estimate`."""
 
 
@@ -253,17 +253,13 @@ def _around(
     lowest = optimum
     apparatus = likelihood.whiten(moves(likelihood, optimum.x))
     J = posterior.jacobian[: posterior.residuals.size]
-    # A number that cannot be negative does not go beyond 0.
-    ends = [k for k, v in enumerate(optimum.x) if limit_of(v)]
-    lower = likelihood.problem.lower
-    ends = [k for k in ends if lower[k] != 0.0 or limit_of(optimum.x[k]) == "upper"]
+    ends = _ends_to_pass(likelihood, optimum.x)
     estimates = []
     profiles = {}
     for i, (name, x) in enumerate(zip(likelihood.problem.names, optimum.x.tolist(), strict=True)):
         # A parameter that rests at a limit does not move with the others.
         free = [k for k, v in enumerate(optimum.x) if k == i or not limit_of(v)]
         at = free.index(i)
-        fixed = [k for k in ends if k != i]
         # Chi-square rises by the covariance without errors that it does not weigh.
         covariance = replace(posterior, hidden=None).covariance(free)
         wider = float(posterior.widening(free)[at])
@@ -285,10 +281,18 @@ def _around(
         of_apparatus = variances(covariance / dispersion, J[:, free], apparatus)
         more = float(np.sqrt(of_apparatus[at]))
         reach = max(wide.high - x, x - wide.low)
-        away = BEYOND * np.abs(linear.product(covariance, J[:, free].T, J[:, fixed])) / dispersion
-        tied = bool(np.any(away[at] > reach))
+        others = J[:, [k for k in ends if k != i]]
+        away = BEYOND * linear.product(covariance, J[:, free].T, others) / dispersion
+        tied = bool(np.any(np.abs(away[at]) > reach))
         estimates.append(Estimate(name, x, sd, more, noise, wide, method, limit_of(x), tied))
     return tuple(estimates), profiles, lowest
+
+
+def _ends_to_pass(likelihood: Likelihood, x: FloatArray) -> list[int]:
+    """Return the parameters at a limit beyond which they may lie: no number goes below 0."""
+    lower = likelihood.problem.lower
+    ends = [(k, limit_of(value)) for k, value in enumerate(x)]
+    return [k for k, end in ends if end == "upper" or (end == "lower" and lower[k] != 0.0)]
 
 
 def _parabolic(

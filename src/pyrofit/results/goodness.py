@@ -15,6 +15,8 @@ FAR_OFF = 0.1
 """Lasting misfit, over the range of a signal, above which no model describes it."""
 APPARENT: Literal["apparent value"] = "apparent value"
 """Verdict on a parameter of a model that misses the tests."""
+MISFIT = "misfit"
+"""Method of an interval of a model that misses the tests."""
 AS_DESCRIBED: Literal["determined as described"] = "determined as described"
 """Verdict on a parameter that usual errors of the apparatus move too far to be determined."""
 

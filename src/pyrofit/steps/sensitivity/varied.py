@@ -12,6 +12,7 @@ from pyrofit.estimate.problem import Problem
 from pyrofit.experiments.slab.uncertain import PLACES, Place, described_number, with_value
 from pyrofit.model.slab import SlabExperiment
 from pyrofit.results.files import Results, read_csv
+from pyrofit.results.goodness import MISFIT
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.steps.sensitivity.record import Kind
 
@@ -125,7 +126,7 @@ def _estimates(results: Results, problem: Problem) -> dict[str, tuple[float, flo
         columns,
         {("parameter",): [(name,) for name in problem.names]},
     )
-    of_apparatus = frame["apparatus_sd"].where(frame["method"] == "misfit", 0.0)
+    of_apparatus = frame["apparatus_sd"].where(frame["method"] == MISFIT, 0.0)
     sds = np.sqrt(np.maximum(frame["sd"] ** 2 - of_apparatus**2, 0.0))
     rows = zip(frame["parameter"], frame["estimate"], sds, strict=True)
     pairs = {str(name): (float(mean), float(sd)) for name, mean, sd in rows}
