@@ -9,6 +9,7 @@ from pyrofit.experiments.from_files import Told
 from pyrofit.new_study.columns import FoundColumn
 from pyrofit.new_study.divisor import divisor_of, is_told
 from pyrofit.new_study.draft import MeasuredFile
+from pyrofit.new_study.pieces import Pieces
 from pyrofit.new_study.plan import PartOfPlan
 from pyrofit.quantities.units import SCALES
 
@@ -18,15 +19,19 @@ _ALIKE = 0.1
 """Share by which two numbers of one test may differ."""
 
 
-def signal_lines(run: MeasuredFile, asks_place: bool = False) -> list[str]:
+def signal_lines(run: MeasuredFile, pieces: Pieces, asks_place: bool = False) -> list[str]:
     """Return the lines of the study file on the signals of an experiment and on unused columns.
 
-    ``asks_place`` asks once where the thermocouple of the first back temperature was.
+    Each repeat has its piece as well. ``asks_place`` asks once where the thermocouple of the first
+    back temperature was.
     """
     lines = []
     for repeat in run.repeats:
-        lines += [f"        {repeat.name}:", "          signals:"]
-        lines += [f"      {line}" for line in signal_lines(repeat, asks_place)]
+        lines.append(f"        {repeat.name}:")
+        if piece := pieces.line(repeat.name):
+            lines += ["          sample:", f"            {piece}"]
+        lines.append("          signals:")
+        lines += [f"      {line}" for line in signal_lines(repeat, pieces, asks_place)]
         asks_place = asks_place and not has_back(repeat)
     if run.repeats:
         return lines

@@ -19,6 +19,7 @@ from pyrofit.new_study.copied import without_copies
 from pyrofit.new_study.divisor import USUAL_AREA_M2
 from pyrofit.new_study.draft import KineticsDraft, MeasuredFile
 from pyrofit.new_study.marks import asked_once
+from pyrofit.new_study.pieces import Pieces, said_of_pieces, unequal_masses
 from pyrofit.new_study.plan import PartOfPlan, heats, part_of, titles, uncompared
 from pyrofit.new_study.repeats import grouped_by_names
 from pyrofit.new_study.wide_tables import split_table
@@ -90,6 +91,7 @@ def init(name: str, files: Files, parent: Path) -> tuple[Path, list[str]]:
     lines = (
         [line for run in records for line in lines_on_file(run)] + copied + said_of_repeats(tests)
     )
+    lines += said_of_pieces(tests)
     lines = [line.replace(parts, f"{folder / 'data'}") for line in lines]
     lines = [*_said_of_tables(files, single), *lines]
     lines += held_out(heated) if heated.held_out else []
@@ -196,7 +198,11 @@ def study_text(name: str, tests: Sequence[MeasuredFile]) -> str:
             virgin=_virgin(alone, estimated),
             residue_density=1000 if kinetics.residue <= _FILM else 250,
             asks_water=alone is None and kinetics.asks_water,
-            experiments=_experiments([*heated.runs, *slabs.runs], kinetics.asks_water),
+            experiments=_experiments(
+                [*heated.runs, *slabs.runs],
+                kinetics.asks_water,
+                Pieces(unequal_masses(tests), kinetics.charring),
+            ),
             kinetics_part=heated,
             kinetics_words=_words(heated),
             kinetics_estimate=of_kinetics,
@@ -247,10 +253,10 @@ def _environment() -> Environment:
     )
 
 
-def _experiments(runs: Sequence[MeasuredFile], moist: bool) -> list[str]:
+def _experiments(runs: Sequence[MeasuredFile], moist: bool, pieces: Pieces) -> list[str]:
     """Return the lines of each experiment, from the template of its kind.
 
-    ``moist``: slabs hold water beside the material.
+    ``moist``: slabs hold water beside the material. ``pieces``: their masses, where they differ.
     """
     templates, again = _environment(), titles(runs)
     first = _firsts(runs)
@@ -262,7 +268,8 @@ def _experiments(runs: Sequence[MeasuredFile], moist: bool) -> list[str]:
             number=number_comment(run),
             again=again[run.name],
             facts=files_of(run.kind).facts(run.frames),
-            signals=signal_lines(run, asks_place=run.name == first.get("back")),
+            signals=signal_lines(run, pieces, asks_place=run.name == first.get("back")),
+            piece="" if run.repeats else pieces.line(run.name),
             moist=moist,
             shared={name: (place == run.name) for name, place in first.items()},
             area=USUAL_AREA_M2 if assumes_area(run) else None,

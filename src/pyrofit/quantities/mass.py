@@ -6,6 +6,8 @@ from pyrofit.quantities.base import FloatArray, Quantity, Shown
 
 ENDS = 5
 """Points at each end of a record whose median is its level there, at most."""
+UNEQUAL = 1.05
+"""Ratio of the largest to the smallest mass of samples described alike, from which on it counts."""
 
 
 def mass_released(time: FloatArray, mass: FloatArray) -> float:

@@ -10,6 +10,7 @@ import numpy as np
 from pyrofit.model.experiment import Experiment
 from pyrofit.model.heated import Baseline, HeatedExperiment
 from pyrofit.model.slab import SlabExperiment
+from pyrofit.quantities.mass import UNEQUAL
 from pyrofit.quantities.units import ICE_POINT_K
 from pyrofit.show.text import listed
 from pyrofit.steps.preview.changes import (
@@ -54,8 +55,6 @@ FLAT = 0.1
 """Change of a record before the start of a test at most, over its range: without a flux nothing
 happens. A shift that leaves the test itself out would explain everything."""
 ROOM_K = 293.15
-UNEQUAL = 1.05
-"""Ratio of the largest to the smallest mass of samples described alike, from which on it counts."""
 USUAL_K = (250.0, 450.0)
 """Temperatures of gas and walls that need no explanation."""
 

@@ -1,0 +1,75 @@
+"""Pieces that weigh differently have a factor each in a new study."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pyrofit.config import Study, read_study
+from pyrofit.new_study.write import init
+
+SECONDS = np.arange(0.0, 900.0, 5.0)
+LEFT = 0.2 + 0.8 / (1.0 + np.exp((SECONDS - 500.0) / 60.0))
+KELVIN = np.arange(300.0, 900.0, 2.0)
+
+
+def slabs(folder: Path, masses_g: dict[str, float]) -> list[Path]:
+    """Write the masses of slabs of 0.01 m2."""
+    files = []
+    for name, grams in masses_g.items():
+        files.append(folder / f"{name}.csv")
+        table = np.c_[SECONDS, grams * LEFT]
+        np.savetxt(files[-1], table, "%.6g", ",", header="Time (s),Mass (g)", comments="")
+    return files
+
+
+def made(folder: Path, masses_g: dict[str, float], residue: float = 0.2) -> tuple[Study, list[str]]:
+    fraction = residue + (1.0 - residue) / (1.0 + np.exp((KELVIN - 640.0) / 12.0))
+    tga, header = folder / "a_10K.csv", "time_s,temperature_K,mass_fraction"
+    columns = np.c_[6.0 * (KELVIN - 300.0), KELVIN, fraction]
+    np.savetxt(tga, columns, "%.6g", ",", header=header, comments="")
+    files = {"tga": [tga], "gasification": slabs(folder, masses_g)}
+    study, said = init("x", files, folder)
+    return read_study(study), said
+
+
+UNEQUAL = {"a_25kW_R1": 90.0, "a_25kW_R2": 110.0, "a_50kW": 100.0}
+
+
+@pytest.mark.parametrize(
+    ("residue", "key"), [(0.2, "density_factor"), (0.02, "thickness_factor")], ids=["wood", "sheet"]
+)
+def test_each_piece_has_its_mass_over_the_mean(tmp_path: Path, residue: float, key: str) -> None:
+    study, said = made(tmp_path, UNEQUAL, residue)
+    for name, grams in UNEQUAL.items():
+        sample = study.experiments[name].sample
+        assert getattr(sample, key) == pytest.approx(grams / 100.0)
+        assert sample.density_factor * sample.thickness_factor == getattr(sample, key)
+    assert any("weigh 9 to 11 kg/m²" in line for line in said)
+    text = (tmp_path / "x" / "x.yaml").read_text("utf-8")
+    assert len(re.findall(f"{key}.*CHANGE", text)) == 1
+
+
+@pytest.mark.parametrize(
+    "masses",
+    [
+        {"a_25kW_R1": 99.0, "a_25kW_R2": 101.0},
+        {"a_25kW": 60.0, "a_50kW": 120.0},
+        {"a_25kW_R1": 100.0},
+        {"a_25kW_R1": 0.0, "a_25kW_R2": 100.0},
+    ],
+    ids=["nearly equal", "two thicknesses", "one", "tared"],
+)
+def test_other_pieces_have_none(tmp_path: Path, masses: dict[str, float]) -> None:
+    study, said = made(tmp_path, masses)
+    assert all(e.sample.density_factor == 1.0 for n, e in study.experiments.items() if n in masses)
+    assert not any("weigh" in line for line in said)
+
+
+def test_record_that_starts_before_its_sample_lies_there_tells_no_mass(tmp_path: Path) -> None:
+    files = slabs(tmp_path, {"a_25kW_R1": 90.0, "a_25kW_R2": 110.0})
+    late = np.c_[SECONDS, np.where(SECONDS < 60.0, 50.0, 110.0 * LEFT)]
+    np.savetxt(files[1], late, "%.6g", ",", header="Time (s),Mass (g)", comments="")
+    study, _ = init("y", {"gasification": files}, tmp_path)
+    assert "_factor" not in study.read_text("utf-8")
