@@ -173,7 +173,7 @@ def lowered(experiment: SlabExperiment, substance: Substance, accuracy: Accuracy
     """Return an experiment on a slab as arrays for the kernel, a row for each set of values."""
     sample = experiment.sample
     material, values, sets = substance.material, substance.values, substance.sets
-    properties = substance.properties(sample.absorption_length_m, sample.density_factor)
+    properties = substance.properties(sample)
     network = substance.network(experiment.oxygen)
     share = lower_share(experiment, material, values, sets)
     exposure = lower_exposure(experiment, share, properties, values, sets)

@@ -108,15 +108,16 @@ def test_no_effect_is_dropped_without_a_word(effect: str, version: Version) -> N
     assert in_lines or kinds
 
 
-def test_a_denser_piece_is_named() -> None:
+@pytest.mark.parametrize("number", ["density", "conductivity"])
+def test_a_factor_of_a_piece_is_named(number: str) -> None:
     slab = base().experiments["capa_25"]
     assert isinstance(slab, SlabExperiment)
-    denser = slab.model_copy(
-        update={"sample": slab.sample.model_copy(update={"density_factor": 1.1})}
+    other = slab.model_copy(
+        update={"sample": slab.sample.model_copy(update={f"{number}_factor": 1.1})}
     )
-    said = {r.what for r in unwritten(denser, base().values)}
+    said = {r.what for r in unwritten(other, base().values)}
     assert said - {r.what for r in unwritten(slab, base().values)} == {
-        "density of the piece, 1.1 times the material's (sample.density_factor)"
+        f"{number} of the piece, 1.1 times the material's (sample.{number}_factor)"
     }
 
 

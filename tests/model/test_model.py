@@ -171,6 +171,7 @@ def test_numbers_carry_the_rules_of_their_place(place: str, good: float, bad: fl
         ("sample.foil.contact_m2K_W", 0.0, -1e-3),
         ("sample.thickness_factor", 0.1, 0.0),
         ("sample.density_factor", 1.1, 0.0),
+        ("sample.conductivity_factor", 2.0, 0.0),
         ("sample.emissivity_change", -2.0, float("nan")),
         ("sample.absorption_length_m", 0.0, -1e-4),
         ("sample.edge.h_W_m2K", 0.0, -1.0),

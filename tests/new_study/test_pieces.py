@@ -73,3 +73,34 @@ def test_record_that_starts_before_its_sample_lies_there_tells_no_mass(tmp_path:
     np.savetxt(files[1], late, "%.6g", ",", header="Time (s),Mass (g)", comments="")
     study, _ = init("y", {"gasification": files}, tmp_path)
     assert "_factor" not in study.read_text("utf-8")
+
+
+GRAIN = ["a_25kW_parallel", "a_25kW_perpendicular_R1", "a_25kW_perpendicular_R2"]
+
+
+def test_each_further_direction_of_the_grain_has_its_conductivity(tmp_path: Path) -> None:
+    masses = dict.fromkeys([*GRAIN, "a_50kW_parallel", "a_50kW_perpendicular"], 100.0)
+    study, _ = made(tmp_path, {name: grams + i for i, (name, grams) in enumerate(masses.items())})
+    for name in masses:
+        factor = study.experiments[name].sample.conductivity_factor
+        assert factor == ("a_perpendicular" if "perpendicular" in name else 1.0)
+    assert "a_perpendicular" in study.imp.estimate
+
+
+@pytest.mark.parametrize(
+    ("names", "residue"),
+    [
+        (GRAIN[:1], 0.2),
+        (["a_25kW_parallel", "a_50kW_perpendicular"], 0.2),
+        (["a_25kW_parallelogram", "a_25kW_perp"], 0.2),
+        (GRAIN, 0.02),
+    ],
+    ids=["one", "the other held out", "one of two", "no char"],
+)
+def test_no_direction_without_a_fitted_test_of_another(
+    tmp_path: Path, names: list[str], residue: float
+) -> None:
+    masses = {name: 100.0 + 0.5 * i for i, name in enumerate(names)}
+    study, _ = made(tmp_path, masses, residue)
+    assert all(study.experiments[name].sample.conductivity_factor == 1.0 for name in names)
+    assert not any(name.startswith("a_") for name in study.parameters)

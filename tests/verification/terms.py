@@ -114,6 +114,7 @@ TERMS = {
     "contact": Term(0.0, 5e-3, foil={"contact_m2K_W": "x"}),
     "thickness_factor": Term(1.0, 1.05, sample={"thickness_factor": "x"}),
     "density_factor": Term(1.0, 1.1, sample={"density_factor": "x"}),
+    "conductivity_factor": Term(1.0, 2.0, sample={"conductivity_factor": "x"}),
     "emissivity_change": Term(0.0, -0.3, sample={"emissivity_change": "x"}),
     "absorption_length": Term(0.0, 5e-4, sample={"absorption_length_m": "x"}),
     "gas_heat": Term(0.0, 2000.0, sample={"gas_specific_heat_J_kgK": "x"}),

@@ -501,6 +501,7 @@ CASES = {
     "contact": with_term("contact"),  # 1.0e-5, 0.010 K
     "thickness_factor": with_term("thickness_factor"),  # 1.0e-5, 0.011 K
     "density_factor": with_term("density_factor"),
+    "conductivity_factor": with_term("conductivity_factor"),
     "emissivity_change": with_term("emissivity_change"),  # 1.0e-5, 0.010 K
     "absorption_length": with_term("absorption_length", 4e-5),  # 2.8e-5, 0.007 K
     "gas_heat": with_term("gas_heat"),  # 1.4e-5, 0.010 K

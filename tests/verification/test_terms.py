@@ -342,12 +342,19 @@ def test_thickness_factor_multiplies_every_layer() -> None:
     assert same((thick, charring()), (specimen(layers=double), charring()))
 
 
-def test_density_factor_multiplies_density_and_conductivity_of_the_material() -> None:
+@pytest.mark.parametrize(
+    ("factor", "keys"),
+    [
+        ("density_factor", ("density_kg_m3", "conductivity_W_mK")),
+        ("conductivity_factor", ("conductivity_W_mK",)),
+    ],
+)
+def test_factor_multiplies_properties_of_the_material(factor: str, keys: tuple[str, ...]) -> None:
     twice = charring().model_dump(exclude_unset=True)
     for component in twice["components"].values():
-        for key in ("density_kg_m3", "conductivity_W_mK"):
+        for key in keys:
             component[key] *= 2.0
-    given = specimen(foil=FOIL, density_factor=2.0)
+    given = specimen(foil=FOIL, **{factor: 2.0})
     assert same((given, charring()), (specimen(foil=FOIL), Material.model_validate(twice)))
 
 

@@ -132,6 +132,11 @@ class Sample(Part):
         description="multiplies density and conductivity of the material's components, not of "
         "boards and foil: a denser piece of a porous material, of the same diffusivity [-]",
     )
+    conductivity_factor: Positive = Field(
+        1.0,
+        description="multiplies the conductivity of the material's components, not of boards and "
+        "foil: a piece cut in another direction of the grain [-]",
+    )
     emissivity_change: Number = Field(
         0.0,
         description="added to the surface emissivity, times the mass released over the initial [-]",

@@ -8,7 +8,7 @@ import numpy as np
 from pyrofit.new_study.draft import MeasuredFile
 from pyrofit.quantities import mass
 
-_ONE_THICKNESS = 1.6
+_ONE_THICKNESS = 1.9
 """Ratio of the largest to the smallest mass up to which pieces may have one thickness."""
 _WHOLE = 0.98
 """Share of its largest value below which a record does not start with the whole sample."""

@@ -18,6 +18,7 @@ from pyrofit.new_study import draft
 from pyrofit.new_study.copied import without_copies
 from pyrofit.new_study.divisor import USUAL_AREA_M2
 from pyrofit.new_study.draft import KineticsDraft, MeasuredFile
+from pyrofit.new_study.grain import directions_of
 from pyrofit.new_study.marks import asked_once
 from pyrofit.new_study.pieces import Pieces, said_of_pieces, unequal_masses
 from pyrofit.new_study.plan import PartOfPlan, heats, part_of, titles, uncompared
@@ -182,7 +183,9 @@ def study_text(name: str, tests: Sequence[MeasuredFile]) -> str:
     burns = _COMBUSTION in heats(records)
     of_kinetics = [*_of_scheme(kinetics), *shown]
     estimated = _of_slabs(heated, slabs, shown)
-    estimated += list(_OF_CHAR) if kinetics.charring else []
+    directions = directions_of(slabs) if kinetics.charring else {}
+    of_grain = list(dict.fromkeys(directions.values()))
+    estimated += [*_OF_CHAR, *(f"a_{told}" for told in of_grain)] if kinetics.charring else []
     alone = None
     if not slabs.runs:  # kinetics alone: as the first stage of other studies
         heated, slabs = slabs, heated
@@ -198,10 +201,12 @@ def study_text(name: str, tests: Sequence[MeasuredFile]) -> str:
             virgin=_virgin(alone, estimated),
             residue_density=1000 if kinetics.residue <= _FILM else 250,
             asks_water=alone is None and kinetics.asks_water,
+            directions=of_grain,
             experiments=_experiments(
                 [*heated.runs, *slabs.runs],
                 kinetics.asks_water,
                 Pieces(unequal_masses(tests), kinetics.charring),
+                directions,
             ),
             kinetics_part=heated,
             kinetics_words=_words(heated),
@@ -253,10 +258,13 @@ def _environment() -> Environment:
     )
 
 
-def _experiments(runs: Sequence[MeasuredFile], moist: bool, pieces: Pieces) -> list[str]:
+def _experiments(
+    runs: Sequence[MeasuredFile], moist: bool, pieces: Pieces, directions: Mapping[str, str]
+) -> list[str]:
     """Return the lines of each experiment, from the template of its kind.
 
     ``moist``: slabs hold water beside the material. ``pieces``: their masses, where they differ.
+    ``directions``: those of the grain, where they need a factor.
     """
     templates, again = _environment(), titles(runs)
     first = _firsts(runs)
@@ -270,6 +278,7 @@ def _experiments(runs: Sequence[MeasuredFile], moist: bool, pieces: Pieces) -> l
             facts=files_of(run.kind).facts(run.frames),
             signals=signal_lines(run, pieces, asks_place=run.name == first.get("back")),
             piece="" if run.repeats else pieces.line(run.name),
+            direction=directions.get(run.name),
             moist=moist,
             shared={name: (place == run.name) for name, place in first.items()},
             area=USUAL_AREA_M2 if assumes_area(run) else None,

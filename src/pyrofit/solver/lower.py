@@ -106,11 +106,13 @@ def lower_material(
     sets: int = 1,
     absorption_length: Value = 0.0,
     density_factor: Value = 1.0,
+    conductivity_factor: Value = 1.0,
 ) -> Material:
     """Return the component properties as arrays, in the order of ``material.components``.
 
     An ``absorption_length`` [m] above zero holds for all components of the material itself, and so
-    does the ``density_factor``, which multiplies density and conductivity.
+    do the ``density_factor``, which multiplies density and conductivity, and the
+    ``conductivity_factor``.
     """
     described = material.derived("described", _described)
     given = stack([value_of(number, values) for number in described.numbers], sets)
@@ -122,9 +124,11 @@ def lower_material(
         tables = (_tables(material, name, values, sets) for name in _TABLES)
         expansion, conductivity, heat, factor = tables
     absorption = _absorption(absorption, described.own, absorption_length)
-    if isinstance(density_factor, np.ndarray) or density_factor != 1.0:
+    if _differs(density_factor):
         denser = np.where(described.own, density_factor, 1.0)
         density, conductivity = denser * density, denser[:, None] * conductivity
+    if _differs(conductivity_factor):
+        conductivity = np.where(described.own, conductivity_factor, 1.0)[:, None] * conductivity
     return Material(
         specific_volume=1.0 / density,
         expansion=expansion,
@@ -135,6 +139,10 @@ def lower_material(
         alike=described.alike,
         constant=described.constant,
     )
+
+
+def _differs(factor: Value) -> bool:
+    return isinstance(factor, np.ndarray) or factor != 1.0
 
 
 def _absorption(given: FloatArray, own: BoolArray, length: Value) -> FloatArray:
@@ -176,7 +184,7 @@ class Substance:
 
     def __init__(self, material: words.Material, values: Values, sets: int = 1) -> None:
         self.material, self.values, self.sets = material, values, sets
-        self._properties: dict[tuple[float | str, float | str], Material] = {}
+        self._properties: dict[tuple[float | str, ...], Material] = {}
         self._smaller: dict[frozenset[str], Substance] = {}
         self._networks: dict[bool, Network] = {}
 
@@ -204,12 +212,12 @@ class Substance:
             )
         return self._networks[some]
 
-    def properties(self, absorption_length: float | str, density_factor: float | str) -> Material:
-        """Return the component properties of a sample with such numbers, see `lower_material`."""
-        key = absorption_length, density_factor
+    def properties(self, sample: Sample) -> Material:
+        """Return the component properties with the numbers of a sample, see `lower_material`."""
+        key = sample.absorption_length_m, sample.density_factor, sample.conductivity_factor
         if key not in self._properties:
-            length, denser = (value_of(number, self.values) for number in key)
+            length, denser, conductive = (value_of(number, self.values) for number in key)
             self._properties[key] = lower_material(
-                self.material, self.values, self.sets, length, denser
+                self.material, self.values, self.sets, length, denser, conductive
             )
         return self._properties[key]

@@ -18,9 +18,11 @@ def unwritten(experiment: SlabExperiment, values: Values) -> Iterator[Remark]:
     if change := value_of(sample.emissivity_change, values):
         what = f"emissivity with conversion, {change:.3g} in all (sample.emissivity_change)"
         yield Remark("left out", what, "an emissivity belongs to a component")
-    if (factor := value_of(sample.density_factor, values)) != 1.0:
-        what = f"density of the piece, {factor:.4g} times the material's (sample.density_factor)"
-        yield Remark("left out", what, "the material is written once for all tests")
+    for number in ("density", "conductivity"):
+        if (factor := value_of(getattr(sample, f"{number}_factor"), values)) != 1.0:
+            times = f"{factor:.4g} times the material's (sample.{number}_factor)"
+            what = f"{number} of the piece, {times}"
+            yield Remark("left out", what, "the material is written once for all tests")
     if heat := value_of(sample.gas_specific_heat_J_kgK, values):
         what = f"enthalpy of the gas, {heat:.4g} J/(kg K) (sample.gas_specific_heat_J_kgK)"
         yield Remark("left out", what, "the gas leaves without taking up heat")

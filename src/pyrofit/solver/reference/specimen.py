@@ -17,10 +17,8 @@ def make_slab(
 ) -> Slab:
     """Return the slab of an experiment; a layer has elements of one thickness, at least two."""
     sample, back = experiment.sample, experiment.back
-    length, denser = (
-        value_of(x, values) for x in (sample.absorption_length_m, sample.density_factor)
-    )
-    solid = substance(material, values, length, denser)
+    factors = sample.absorption_length_m, sample.density_factor, sample.conductivity_factor
+    solid = substance(material, values, *(value_of(x, values) for x in factors))
     virgin, mass = _elements(sample, material, solid, values, elements)
     count = mass.size
     virgin, mass = _with_backing(virgin, mass, sample, solid, values, max(2, elements // 4))

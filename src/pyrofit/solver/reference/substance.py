@@ -180,12 +180,13 @@ def substance(
     values: Values,
     absorption_length: float = 0.0,
     density_factor: float = 1.0,
+    conductivity_factor: float = 1.0,
 ) -> NumericSubstance:
     """Return the material with the numbers of the given parameter values.
 
     An ``absorption_length`` [m] above zero replaces that of every component of the material itself;
     other bodies are opaque unless described otherwise. The ``density_factor`` multiplies density
-    and conductivity of the same components.
+    and conductivity of the same components, the ``conductivity_factor`` conductivity alone.
     """
     parts = list(material.components.values())
     kappa = {
@@ -197,11 +198,12 @@ def substance(
         kappa |= opaque
     own = np.isin(list(material.components), sorted(material.own))
     denser = np.where(own, density_factor, 1.0)
+    conductive = np.where(own, density_factor * conductivity_factor, 1.0)
     return NumericSubstance(
         names=list(material.components),
         density=denser * np.array([value_of(c.density_kg_m3, values) for c in parts]),
         expansion=Property(tuple(c.expansion for c in parts), values),
-        conductivity=Property(tuple(c.conductivity_W_mK for c in parts), values, denser),
+        conductivity=Property(tuple(c.conductivity_W_mK for c in parts), values, conductive),
         specific_heat=Property(tuple(c.specific_heat_J_kgK for c in parts), values),
         emissivity=np.array([value_of(c.emissivity, values) for c in parts]),
         absorption=np.array(list(kappa.values())),
