@@ -233,6 +233,7 @@ def _starts(results: Results, cost: str, optimiser: str, starts: list[dict[str, 
 def _identification(study: Study, results: Results) -> None:
     """k is determined, cp is not: its interval ends at the upper limit."""
     common = {"low_open": False, "bound": "", "noise_width": 0.05, "apparatus_sd": 0.05}
+    common |= {"apparatus_most": "thickness"}
     k = {"parameter": "k", "estimate": 0.3, "sd": 0.01, "low": 0.28, "high": 0.32, "width": 0.1}
     k |= {"noise_low": 0.29, "noise_high": 0.31, "high_open": False, "method": "linear"}
     cp = {"parameter": "cp", "estimate": 3500.0, "sd": 800.0, "low": 1400.0, "high": 3500.0}

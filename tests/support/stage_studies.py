@@ -98,7 +98,7 @@ def estimated_by_hand(results: Results, values: dict[str, float], stage: str = "
         "noise_high",
         "noise_width",
     )
-    words = ("bound", "low_open", "high_open", "method", "verdict")
+    words = ("apparatus_most", "bound", "low_open", "high_open", "method", "verdict")
     row = {**dict.fromkeys(numbers, 0.1), **dict.fromkeys(words, "")}
     rows = [{"parameter": name, "estimate": value, **row} for name, value in values.items()]
     write_csv(results.identification("estimate.csv", stage), pd.DataFrame(rows))

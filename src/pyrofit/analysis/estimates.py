@@ -51,6 +51,8 @@ class Estimated:
         Width of the interval as a fraction of the search range.
     apparatus
         How far usual errors of the apparatus move the estimate, with 95 %.
+    most
+        The largest of these errors in words; empty where there is none.
     cut_off
         Which ends a limit cuts off: 'lower', 'upper', 'both', or none.
     noise_low, noise_high
@@ -73,6 +75,7 @@ class Estimated:
     high: float
     width: float
     apparatus: float
+    most: str
     cut_off: str | None
     noise_low: float | None
     noise_high: float | None
@@ -129,6 +132,7 @@ def _estimated(
         high=float(row["high"]) / factor,
         width=float(row["width"]),
         apparatus=QUANTILE * float(row["apparatus_sd"]) / factor,
+        most=str(row["apparatus_most"]),
         cut_off=_CUT_OFF[bool(row["low_open"]), bool(row["high_open"])],
         noise_low=_another(row, "low", factor),
         noise_high=_another(row, "high", factor),

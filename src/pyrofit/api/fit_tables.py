@@ -29,6 +29,7 @@ def estimates_table(study: Study, likelihood: Likelihood, found: Identification)
                 "value": lower + e.x * span,
                 "sd": e.sd * span,
                 "apparatus_sd": e.apparatus * span,
+                "apparatus_most": e.most,
                 "low": lower + e.interval.low * span,
                 "high": lower + e.interval.high * span,
                 "unit": study.parameters[e.name].unit,

@@ -39,10 +39,12 @@ class Fit:
     values
         Values of all parameters that the fit uses, estimated or not, in the units of the study.
     table
-        Estimates by parameter. Columns: value, sd, apparatus_sd, low and high (95 % interval),
-        unit, lower and upper (limits), at_limit, verdict, method ('linear', 'profile' or
-        'misfit'). All numbers are in ``unit``. Without likelihood, sd, low and high are NaN.
-        Usual errors of the apparatus, apparatus_sd, are part of sd if the model misses the tests.
+        Estimates by parameter. Columns: value, sd, apparatus_sd and apparatus_most, low and high
+        (95 % interval), unit, lower and upper (limits), at_limit, verdict, method ('linear',
+        'profile' or 'misfit'). All numbers are in ``unit``. Without likelihood, sd, low and high
+        are NaN.
+        Usual errors of the apparatus, apparatus_sd, are part of sd if the model misses the tests;
+        apparatus_most is the largest of them in words.
     comparison
         Measured and fitted curves.
     signals

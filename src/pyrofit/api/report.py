@@ -104,13 +104,14 @@ def _parameters(fit: Report) -> pd.DataFrame:
                 "sd": write(row["sd"]) if known else "",
                 "95 % interval": f"{write(row['low'])} to {write(row['high'])}" if known else "",
                 "± by the apparatus": _of_apparatus(row),
+                "mostly by": row.get("apparatus_most", ""),
                 "unit": row["unit"],
                 "limits": f"{number(row['lower'])} to {number(row['upper'])}",
                 "remark": row["verdict"] or at,
             }
         )
     frame = pd.DataFrame(rows)
-    may_be_empty = ("sd", "95 % interval", "± by the apparatus", "remark")
+    may_be_empty = ("sd", "95 % interval", "± by the apparatus", "mostly by", "remark")
     empty = [c for c in may_be_empty if not any(frame[c])]
     return frame.drop(columns=empty)
 

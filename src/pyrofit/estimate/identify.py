@@ -17,8 +17,8 @@ from pyrofit.estimate.goodness import goodness_of_fit
 from pyrofit.estimate.likelihood import Likelihood, fit
 from pyrofit.estimate.posterior import Posterior, interval, limit_of
 from pyrofit.estimate.profile import Interval, Profile, profile_of
-from pyrofit.estimate.uncertain_apparatus import moves, variances
-from pyrofit.estimate.wrong_model import least_squares, sds_of_apparatus, sds_of_misfit
+from pyrofit.estimate.uncertain_apparatus import moves
+from pyrofit.estimate.wrong_model import least_squares, moved_by_apparatus, sds_of_misfit
 from pyrofit.numerics import linear
 from pyrofit.results.goodness import APPARENT, AS_DESCRIBED, MISFIT, Goodness
 from pyrofit.solver.arrays import FloatArray
@@ -55,6 +55,8 @@ class Estimate:
         Standard deviation by usual errors of the apparatus, see
         `pyrofit.estimate.uncertain_apparatus`. It is part of ``sd`` where the model misses the
         tests.
+    most
+        The largest of these errors in words; empty where there is none.
     noise
         Interval if the noise were all that keeps model and data apart.
     interval
@@ -71,6 +73,7 @@ class Estimate:
     x: float
     sd: float
     apparatus: float
+    most: str
     noise: Interval
     interval: Interval
     method: str
@@ -189,7 +192,7 @@ def _of_wrong_model(likelihood: Likelihood, x: FloatArray, tested: Goodness) -> 
     plain, x = least_squares(likelihood, x)
     curves, slopes = _finished(likelihood, x), likelihood.slopes(x)
     posterior = likelihood.posterior(x, slopes)
-    apparatus = sds_of_apparatus(plain, x, slopes)
+    apparatus, most = moved_by_apparatus(plain, x, slopes)
     misfit = sds_of_misfit(likelihood, plain, x, slopes, curves)
     of_noise = np.sqrt(np.diag(posterior.covariance(None, 1.0)))
     # Few repeats may hide more than the misfit shows.
@@ -200,16 +203,18 @@ def _of_wrong_model(likelihood: Likelihood, x: FloatArray, tested: Goodness) -> 
             at,
             sd,
             sd_of_apparatus,
+            largest,
             Interval(*interval(at, s)),
             Interval(*interval(at, sd)),
             MISFIT,
             limit_of(at),
         )
-        for name, at, sd, sd_of_apparatus, s in zip(
+        for name, at, sd, sd_of_apparatus, largest, s in zip(
             likelihood.problem.names,
             x.tolist(),
             sds,
             apparatus.tolist(),
+            most,
             of_noise.tolist(),
             strict=True,
         )
@@ -251,7 +256,7 @@ def _around(
     # A parameter that rests at a limit may leave it when another moves: no parabola tells that.
     inside = not any(limit_of(v) for v in optimum.x)
     lowest = optimum
-    apparatus = likelihood.whiten(moves(likelihood, optimum.x))
+    moved = moves(likelihood, optimum.x)
     J = posterior.jacobian[: posterior.residuals.size]
     ends = _ends_to_pass(likelihood, optimum.x)
     estimates = []
@@ -278,13 +283,14 @@ def _around(
             lowest = min(lowest, end, key=lambda o: o.chi2)
             noise, wide = profile.interval(wider), profile.interval(rise)
             method = PROFILE
-        of_apparatus = variances(covariance / dispersion, J[:, free], apparatus)
-        more = float(np.sqrt(of_apparatus[at]))
+        more, most = moved.of_parameters(likelihood, covariance / dispersion, J[:, free])
         reach = max(wide.high - x, x - wide.low)
         others = J[:, [k for k in ends if k != i]]
         away = BEYOND * linear.product(covariance, J[:, free].T, others) / dispersion
         tied = bool(np.any(np.abs(away[at]) > reach))
-        estimates.append(Estimate(name, x, sd, more, noise, wide, method, limit_of(x), tied))
+        estimates.append(
+            Estimate(name, x, sd, float(more[at]), most[at], noise, wide, method, limit_of(x), tied)
+        )
     return tuple(estimates), profiles, lowest
 
 

@@ -13,19 +13,55 @@ has no error here.
 """
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.problem import Problem
-from pyrofit.experiments.slab.uncertain import PLACES, Place, stated, with_value
+from pyrofit.experiments.slab.uncertain import PLACES, Place, uncertain_numbers, with_value
 from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
 
 
-def moves(likelihood: Likelihood, x: FloatArray) -> FloatArray:
-    """Return u of all errors, shape (points, errors), without those whose runs do not finish.
+@dataclass(frozen=True, eq=False)
+class Moves:
+    """How far errors move curves.
+
+    Parameters
+    ----------
+    names
+        The errors in words.
+    u
+        Changes of all curves by one standard deviation, shape (points, errors).
+    """
+
+    names: tuple[str, ...]
+    u: FloatArray
+
+    def of_parameters(
+        self, likelihood: Likelihood, C: FloatArray, jacobian: FloatArray
+    ) -> tuple[FloatArray, tuple[str, ...]]:
+        """Return by parameter the standard deviation of d x, and the error that moves it most.
+
+        Parameters
+        ----------
+        likelihood
+            What the fit minimises.
+        C
+            Inverse of its curvature H, shape (parameters, parameters).
+        jacobian
+            J of the points, shape (points, parameters).
+        """
+        dx = np.abs(linear.product(C, jacobian.T, likelihood.whiten(self.u)))
+        if not self.names:
+            return np.zeros(len(C)), ("",) * len(C)
+        most = tuple(self.names[int(np.argmax(row))] if row.any() else "" for row in dx)
+        return np.asarray(np.sqrt(np.sum(dx**2, axis=1))), most
+
+
+def moves(likelihood: Likelihood, x: FloatArray) -> Moves:
+    """Return the moves by all errors, without those whose runs do not finish.
 
     ``x`` is the optimum, in units of the search range.
     """
@@ -33,7 +69,7 @@ def moves(likelihood: Likelihood, x: FloatArray) -> FloatArray:
     problem, errors = _named(likelihood.problem, likelihood.problem.values(values))
     points, sets = sum(likelihood.points), 2 * len(errors)
     if not errors:
-        return np.zeros((points, 0))
+        return Moves((), np.zeros((points, 0)))
     columns: dict[str, float | FloatArray] = dict(problem.values(values))
     for k, (place, names) in enumerate(errors):
         for name, value in names.items():
@@ -45,7 +81,9 @@ def moves(likelihood: Likelihood, x: FloatArray) -> FloatArray:
         for status, models in problem.outcomes(columns, sets)
     ]
     u = 0.5 * (np.array(curves[::2]) - np.array(curves[1::2])).T
-    return np.asarray(u[:, np.all(np.isfinite(u), axis=0)])
+    finished = np.all(np.isfinite(u), axis=0)
+    names_of = [place.words for (place, _), ends in zip(errors, finished, strict=True) if ends]
+    return Moves(tuple(names_of), np.asarray(u[:, finished]))
 
 
 def _named(
@@ -57,31 +95,15 @@ def _named(
     known: dict[tuple[str, float], str] = {}
     for run_name, run in problem.runs.items():
         experiment = run.experiment
-        for key, place in PLACES.items():
-            given = stated(experiment, place)
+        for key, given in uncertain_numbers(experiment).items():
             value = values.get(given) if isinstance(given, str) else given
             if value is None or given in problem.names:
                 continue
             # One value has one name, so that repeats described alike are simulated once.
             error = f"{key} {experiment.laboratory}"
             name = known.setdefault((error, value), f"error_{len(known)}")
-            experiment = with_value(experiment, place, name)
-            errors.setdefault(error, (place, {}))[1][name] = value
+            experiment = with_value(experiment, PLACES[key], name)
+            errors.setdefault(error, (PLACES[key], {}))[1][name] = value
         if experiment is not run.experiment:
             runs[run_name] = replace(run, experiment=experiment)
     return (replace(problem, runs=runs) if errors else problem), list(errors.values())
-
-
-def variances(C: FloatArray, jacobian: FloatArray, whitened: FloatArray) -> FloatArray:
-    """Return the sum of the squares of d x of all errors, shape (parameters,).
-
-    Parameters
-    ----------
-    C
-        Inverse of the curvature H of what the fit minimises, shape (parameters, parameters).
-    jacobian
-        J of the points, shape (points, parameters).
-    whitened
-        L^-1 u of all errors, shape (points, errors).
-    """
-    return np.asarray(np.sum(linear.product(C, jacobian.T, whitened) ** 2, axis=1))

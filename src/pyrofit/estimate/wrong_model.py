@@ -39,7 +39,7 @@ from pyrofit.estimate.discrepancy import estimated, times
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.noise import NoiseModel
 from pyrofit.estimate.posterior import UNIFORM
-from pyrofit.estimate.uncertain_apparatus import moves, variances
+from pyrofit.estimate.uncertain_apparatus import moves
 from pyrofit.numerics import linear
 from pyrofit.quantities.base import Quantity
 from pyrofit.solver.arrays import FloatArray
@@ -117,12 +117,14 @@ def sds_of_misfit(
     return np.asarray(np.sqrt(found))
 
 
-def sds_of_apparatus(plain: Likelihood, x: FloatArray, slopes: FloatArray) -> FloatArray:
-    """Return the standard deviations by usual errors of the apparatus, shape (parameters,)."""
+def moved_by_apparatus(
+    plain: Likelihood, x: FloatArray, slopes: FloatArray
+) -> tuple[FloatArray, tuple[str, ...]]:
+    """Return standard deviations by usual errors of the apparatus, and the largest one in words."""
     rows = plain.with_known(slopes)
     H = linear.gram(rows) + UNIFORM * np.eye(x.size)
-    found = variances(linear.inverse(H), rows[: sum(plain.points)], plain.whiten(moves(plain, x)))
-    return np.asarray(np.sqrt(found))
+    found = moves(plain, x)
+    return found.of_parameters(plain, linear.inverse(H), rows[: sum(plain.points)])
 
 
 def _variances(H: FloatArray, middle: FloatArray) -> FloatArray:

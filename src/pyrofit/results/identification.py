@@ -91,12 +91,13 @@ def stages_of(study: Study) -> dict[str, tuple[str, ...]]:
 def estimates(study: Study, results: Results, stage: str = "imp") -> pd.DataFrame:
     """Return the result of the analysis for each parameter, SI units, in the study's order."""
     names = [(name,) for name in stages_of(study)[stage]]
-    words = ("bound", "low_open", "high_open", "method", "verdict")
+    words = ("apparatus_most", "bound", "low_open", "high_open", "method", "verdict")
     columns = {**dict.fromkeys(_NUMBERS, float), **dict.fromkeys(words, object)}
     path = results.identification("estimate.csv", stage)
     frame = read_csv(path, columns, {("parameter",): names})
-    bound = frame["bound"].astype(object).fillna("")  # read as numbers where all are empty
-    return frame.assign(bound=bound).set_index("parameter", drop=False)
+    # Read as numbers where all are empty.
+    texts = {n: frame[n].astype(object).fillna("") for n in ("apparatus_most", "bound")}
+    return frame.assign(**texts).set_index("parameter", drop=False)
 
 
 def matrix_of(study: Study, results: Results, stage: str = "imp") -> pd.DataFrame:

@@ -2,8 +2,6 @@
 
 from pyrofit.experiments.slab.uncertain import PLACES
 
-_NAMES = {"gas": "gas temperature", "start": "initial temperature", "back_loss": "loss of the back"}
-
 
 def usual_errors() -> str:
     """Return their standard deviations.
@@ -12,7 +10,7 @@ def usual_errors() -> str:
     'flux 3 %, thickness 2 %, h 2 W/(m² K), gas'
     """
     parts = []
-    for key, place in PLACES.items():
+    for place in PLACES.values():
         size = f"{100.0 * place.sd:g} %" if place.unit == "-" else f"{place.sd:g} {place.unit}"
-        parts.append(f"{_NAMES.get(key, key)} {size.replace('m2', 'm²')}")
+        parts.append(f"{place.words} {size.replace('m2', 'm²')}")
     return ", ".join(parts)

@@ -87,6 +87,7 @@ def _estimates(likelihood: Likelihood, found: Identification) -> pd.DataFrame:
                 "estimate": lower[i] + e.x * span[i],
                 "sd": e.sd * span[i],
                 "apparatus_sd": e.apparatus * span[i],
+                "apparatus_most": e.most,
                 "low": lower[i] + e.interval.low * span[i],
                 "high": lower[i] + e.interval.high * span[i],
                 "low_open": e.interval.low_open,

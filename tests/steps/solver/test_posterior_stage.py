@@ -73,7 +73,9 @@ def identified(study: Study, tmp_path_factory: pytest.TempPathFactory) -> Result
         ("sd", "apparatus_sd", "low", "high", "width", "noise_low", "noise_high", "noise_width"),
         0.1,
     )
-    words = dict.fromkeys(("bound", "low_open", "high_open", "method", "verdict"), "")
+    words = dict.fromkeys(
+        ("apparatus_most", "bound", "low_open", "high_open", "method", "verdict"), ""
+    )
     rows = [
         {"parameter": name, "estimate": value, **numbers, **words}
         for name, value in zip(study.imp.estimate, truth, strict=True)

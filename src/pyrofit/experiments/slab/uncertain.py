@@ -16,33 +16,46 @@ class Place:
     label: str
     unit: str
     sd: float
+    words: str = ""
 
 
 PLACES = {
-    "flux": Place("front", "flux_factor", "factor on the flux", "-", 0.03),
-    "thickness": Place("sample", "thickness_factor", "factor on the thickness", "-", 0.02),
-    "h": Place("front", "h_change_W_m2K", "change of h at the front", "W/(m2 K)", 2.0),
-    "gas": Place("front", "gas_rise_K", "change of the gas temperature", "K", 10.0),
-    "start": Place("sample", "initial_temperature_K", "initial temperature", "K", 2.0),
-    "back_loss": Place("back", "loss_factor", "factor on the back loss", "-", 0.1),
+    "flux": Place("front", "flux_factor", "factor on the flux", "-", 0.03, "flux"),
+    "thickness": Place(
+        "sample", "thickness_factor", "factor on the thickness", "-", 0.02, "thickness"
+    ),
+    "h": Place("front", "h_change_W_m2K", "change of h at the front", "W/(m2 K)", 2.0, "h"),
+    "gas": Place(
+        "front", "gas_rise_K", "change of the gas temperature", "K", 10.0, "gas temperature"
+    ),
+    "start": Place(
+        "sample", "initial_temperature_K", "initial temperature", "K", 2.0, "initial temperature"
+    ),
+    "back_loss": Place(
+        "back", "loss_factor", "factor on the back loss", "-", 0.1, "loss of the back"
+    ),
+    "flame": Place("flame", "flux_W_m2", "heat flux of the flame", "W/m2", 5e3, "flame"),
 }
 """Default uncertainties of the apparatus, by the end of the input's name."""
 
 
-def described_number(experiment: Experiment, place: Place) -> float | None:
-    """Return the number that is described, if it is one and matters."""
-    value = stated(experiment, place)
-    return value if isinstance(value, float) else None
-
-
-def stated(experiment: Experiment, place: Place) -> float | str | None:
-    """Return the number, or the name of a parameter, that stands in a place and matters."""
+def uncertain_numbers(experiment: Experiment) -> dict[str, float | str]:
+    """Return the numbers of a slab that are uncertain and matter, or their parameters, by place."""
     if not isinstance(experiment, SlabExperiment):
-        return None
-    if place.key == "loss_factor" and not has_open_back(experiment):
-        return None
-    found: float | str | None = getattr(getattr(experiment, place.part), place.key)
+        return {}
+    found = {}
+    for key, place in PLACES.items():
+        part = getattr(experiment, place.part, None)
+        value = None if part is None else getattr(part, place.key)
+        if value is not None and _matters(experiment, key, value):
+            found[key] = value
     return found
+
+
+def _matters(experiment: SlabExperiment, key: str, value: float | str) -> bool:
+    if key == "back_loss":
+        return has_open_back(experiment)
+    return key != "flame" or value != 0.0  # without a flux of its own, a flame heats nothing
 
 
 def with_value(experiment: Experiment, place: Place, value: float | str) -> Experiment:

@@ -9,7 +9,7 @@ from pyrofit.config import Study, parameters_in
 from pyrofit.effects.base import changed
 from pyrofit.estimate.prior import within_known
 from pyrofit.estimate.problem import Problem
-from pyrofit.experiments.slab.uncertain import PLACES, Place, described_number, with_value
+from pyrofit.experiments.slab.uncertain import PLACES, Place, uncertain_numbers, with_value
 from pyrofit.model.slab import SlabExperiment
 from pyrofit.results.files import Results, read_csv
 from pyrofit.results.goodness import MISFIT
@@ -159,11 +159,11 @@ def _apparatus(problem: Problem) -> tuple[Problem, list[Input]]:
     runs, found = dict(problem.runs), list[Input]()
     for name, run in problem.runs.items():
         experiment = run.experiment
-        for key, place in PLACES.items():
-            if (value := described_number(experiment, place)) is not None:
+        for key, value in uncertain_numbers(experiment).items():
+            if isinstance(value, float):
                 made = f"{name}_{key}"
-                experiment = with_value(experiment, place, made)
-                found.append(_uncertain(made, place, value, name))
+                experiment = with_value(experiment, PLACES[key], made)
+                found.append(_uncertain(made, PLACES[key], value, name))
         runs[name] = replace(run, experiment=experiment)
     components = dict(problem.material.components)
     for name in sorted(problem.material.own if any(_slabs(problem)) else ()):

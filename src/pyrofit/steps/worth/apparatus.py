@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from pyrofit.diagnose.base.fitted import FittedModel
-from pyrofit.experiments.slab.uncertain import PLACES, described_number, with_value
+from pyrofit.experiments.slab.uncertain import PLACES, uncertain_numbers, with_value
 from pyrofit.model.experiment import Experiment
 from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
@@ -54,9 +54,10 @@ def _moves(
 ) -> list[FloatArray]:
     """Return the change of a whitened record by one standard deviation of each value."""
     found = []
-    for place in PLACES.values():
-        if (value := described_number(experiment, place)) is None:
+    for key, value in uncertain_numbers(experiment).items():
+        if isinstance(value, str):
             continue
+        place = PLACES[key]
         ends = [whitened(with_value(experiment, place, value + d)) for d in (place.sd, -place.sd)]
         if ends[0] is not None and ends[1] is not None:
             found.append(0.5 * (ends[0] - ends[1]))

@@ -22,6 +22,7 @@ def _row(study: Study, e: Estimated) -> Row:
     # A column that is empty for all parameters is not shown.
     row |= {"name": study.parameters[e.name].label or None, "unit": e.unit}
     row |= {"estimate": e.value, "low": e.low, "high": e.high, "apparatus": e.apparatus or None}
+    row["most"] = e.most or None
     row["verdict"] = verdict_of(e)
     return row if study.synthetic is None else {**row, "truth": study.synthetic.truth.get(e.name)}
 
@@ -35,6 +36,11 @@ TABLE = Table(
     "predictions and the posterior take this set. Use its values together. "
     "± by the apparatus: 1.96 standard deviations by its usual errors, which the intervals of a "
     "model that misses the tests contain.",
-    headings={"low": "95 % low", "high": "95 % high", "apparatus": "± by the apparatus"},
+    headings={
+        "low": "95 % low",
+        "high": "95 % high",
+        "apparatus": "± by the apparatus",
+        "most": "mostly by",
+    },
     group_by="fit",
 )
