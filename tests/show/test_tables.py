@@ -192,7 +192,13 @@ def test_verdicts_are_flags_of_table4(tmp_path: Path) -> None:
 
 
 def test_flag_of_a_parameter_at_its_bound() -> None:
-    words = {"unit": "-", "method": "linear", "partner": "", "verdict": "at its lower limit"}
+    words = {
+        "unit": "-",
+        "most": "flux",
+        "method": "linear",
+        "partner": "",
+        "verdict": "at its lower limit",
+    }
     numbers = dict.fromkeys(("value", "low", "high", "width", "apparatus"), 0.1)
     none = dict.fromkeys(("cut_off", "noise_low", "noise_high", "correlation"))
     low = Estimated(stage="imp", name="k", bound="lower", **words, **numbers, **none)

@@ -2,6 +2,9 @@
 
 from pyrofit.experiments.slab.uncertain import PLACES
 
+_SHOWN = {"-": (100.0, "%"), "W/m2": (1e-3, "kW/m²"), "W/(m2 K)": (1.0, "W/(m² K)")}
+"""Factors and units of standard deviations by unit."""
+
 
 def usual_errors() -> str:
     """Return their standard deviations.
@@ -11,6 +14,6 @@ def usual_errors() -> str:
     """
     parts = []
     for place in PLACES.values():
-        size = f"{100.0 * place.sd:g} %" if place.unit == "-" else f"{place.sd:g} {place.unit}"
-        parts.append(f"{place.words} {size.replace('m2', 'm²')}")
+        factor, unit = _SHOWN.get(place.unit, (1.0, place.unit))
+        parts.append(f"{place.words} {factor * place.sd:g} {unit}")
     return ", ".join(parts)

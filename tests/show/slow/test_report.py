@@ -101,9 +101,9 @@ def test_first_screen_answers_three_questions_in_order(tmp_path: Path) -> None:
         "reached: mend these first. Undetermined: cp (70.0 %, upper limit). "
         "In brackets: the width of the 95 % interval over the search range. "
         "Do not quote cp alone: other values fit as well.",
-        "Usual errors of the apparatus move k by ± 0.098 W/(m K), farther than the interval "
-        "(standard deviations: flux 3 %, thickness 2 %, h 2 W/(m² K), gas temperature 10 K, "
-        "initial temperature 2 K, loss of the back 10 %). "
+        "Usual errors of the apparatus move k by ± 0.098 W/(m K) (mostly thickness), farther than "
+        "the interval (standard deviations: flux 3 %, thickness 2 %, h 2 W/(m² K), gas "
+        "temperature 10 K, initial temperature 2 K, loss of the back 10 %, flame 5 kW/m²). "
         "Publish both.",
         "Assumed, not estimated: h of the front 0 W/(m² K) (slab_25); an insulated back "
         "(slab_25). The step sensitivity tells how much they matter.",

@@ -97,6 +97,7 @@ def _by_description(ours: list[Estimated]) -> Iterator[str]:
     if moved := [e for e in sure if e.rests_on_description]:
         by = [
             f"{e.name} by ± {number(float(f'{e.apparatus:.2g}'))} {e.unit}".removesuffix(" -")
+            + f" (mostly {e.most})"
             for e in moved
         ]
         yield (
