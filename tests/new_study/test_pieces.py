@@ -6,8 +6,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from pyrofit.analysis.differing_repeats import notes_on_repeats
 from pyrofit.config import Study, read_study
 from pyrofit.new_study.write import init
+from pyrofit.stages.reading import read_all
 
 SECONDS = np.arange(0.0, 900.0, 5.0)
 LEFT = 0.2 + 0.8 / (1.0 + np.exp((SECONDS - 500.0) / 60.0))
@@ -104,3 +106,11 @@ def test_no_direction_without_a_fitted_test_of_another(
     study, _ = made(tmp_path, masses, residue)
     assert all(study.experiments[name].sample.conductivity_factor == 1.0 for name in names)
     assert not any(name.startswith("a_") for name in study.parameters)
+
+
+def test_records_of_unequal_pieces_are_told_with_their_masses(tmp_path: Path) -> None:
+    study, _ = made(tmp_path, {"a_25kW_R1": 90.0, "a_25kW_R2": 110.0, "a_25kW_R3": 110.5})
+    frames = {record: frame for record, (frame, _) in read_all(study).items()}
+    notes = [note for _, note in notes_on_repeats(study, frames)]
+    assert any(note.endswith("weighs 18 % less, and the study describes it so") for note in notes)
+    assert not any("Leave it out" in note for note in notes)

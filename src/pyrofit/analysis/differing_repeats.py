@@ -1,5 +1,6 @@
 """Repeats of a test that disagree, in words."""
 
+import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
@@ -7,10 +8,13 @@ import pandas as pd
 
 from pyrofit.config import Study
 from pyrofit.estimate.repeats_agree import Difference, differences, is_held, tolerance_of
+from pyrofit.model.experiment import Experiment
 from pyrofit.quantities.base import Quantity
 from pyrofit.quantities.units import ICE_POINT_K
 
 TEMPERATURE = "temperature_K"
+DESCRIBED_PERCENT = 2.0
+"""Difference of the described masses of two samples that explains different records."""
 
 
 def differing_repeats(quantity: Quantity, frames: Sequence[pd.DataFrame]) -> list[Difference]:
@@ -55,7 +59,25 @@ def notes_on_repeats(
         for d in differing_repeats(quantity, records):
             held = are_held(quantity, records)
             words = differs(d.kind, d.size, d.low, d.high, quantity, held)
-            yield (names[d.position], signal), f"{words}. {WAY_OUT}"
+            yield (names[d.position], signal), f"{words}. {_way_out(study, names, d.position)}"
+
+
+def _way_out(study: Study, names: Sequence[str], position: int) -> str:
+    """Say what to do with a record, or that its sample is described as a heavier or lighter one."""
+    masses = [_relative_mass(study.experiments[name]) for name in names]
+    others = float(np.mean(np.delete(masses, position)))
+    percent = 100.0 * (masses[position] / others - 1.0)
+    if not abs(percent) >= DESCRIBED_PERCENT:
+        return WAY_OUT
+    more = "more" if percent > 0.0 else "less"
+    return f"Its sample weighs {abs(percent):.0f} % {more}, and the study describes it so"
+
+
+def _relative_mass(experiment: Experiment) -> float:
+    """Return the mass of a piece over that of the description; 1 where no number tells it."""
+    sample = getattr(experiment, "sample", None)
+    factors = [getattr(sample, key, 1.0) for key in ("density_factor", "thickness_factor")]
+    return math.prod(factor for factor in factors if isinstance(factor, float))
 
 
 DIFFERS = "differs from its repeats"
