@@ -3,7 +3,6 @@
 import json
 from collections.abc import Iterable, Mapping
 
-from pyrofit.analysis.differing_repeats import lines_on_repeats
 from pyrofit.experiments import files_of
 from pyrofit.experiments.from_files import Told
 from pyrofit.new_study.columns import FoundColumn
@@ -244,18 +243,12 @@ def assumed(records: Iterable[MeasuredFile]) -> list[str]:
 
 def said_of_repeats(tests: Iterable[MeasuredFile]) -> list[str]:
     """Say which files are taken as repeats of one test."""
-    lines = []
-    for test in (test for test in tests if test.repeats):
-        lines.append(
-            f"{', '.join(run.name for run in test.repeats)}: taken as repeats of {test.name}; "
-            "change that in the study where they are not"
-        )
-        for found in test.repeats[0].signals:
-            runs = [run for run in test.repeats if found.quantity in run.frames]
-            if len(runs) > 1:
-                frames = [run.frames[found.quantity] for run in runs]
-                lines += lines_on_repeats(found.of, [run.name for run in runs], frames)
-    return lines
+    return [
+        f"{', '.join(run.name for run in test.repeats)}: taken as repeats of {test.name}; "
+        "change that in the study where they are not"
+        for test in tests
+        if test.repeats
+    ]
 
 
 def _remark(run: MeasuredFile, found: FoundColumn) -> str:
