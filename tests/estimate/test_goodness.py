@@ -2,13 +2,16 @@
 
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 
 import pyrofit as pf
-from pyrofit.estimate.goodness import missed, moving_mean, scatter
+from pyrofit.cost import Target
+from pyrofit.estimate.goodness import differing, missed, moving_mean, scatter
+from pyrofit.experiments import KINDS
 from pyrofit.new_study.write import init
 from pyrofit.results.goodness import Goodness, Miss, SignalGoodness
 from pyrofit.show.goodness import verdict_words, where_missed
@@ -156,3 +159,34 @@ def test_misfit_to_both_sides_is_told_by_its_rms() -> None:
         misses = (Miss(0.0, 99.0, None, None, mean),)
         signal = SignalGoodness("slab_25", "mlr", 1e-6, 4e-3, 0.1, 1e-4, 1.0, 1e-3, misses)
         assert f"simulated {words}" in where_missed(study, signal)
+
+
+@pytest.mark.parametrize("described", [True, False])
+def test_repeats_described_differently_are_compared_less_that_difference(described: bool) -> None:
+    time = np.linspace(0.0, 900.0, 181)
+    simulated = [0.01 / (1.0 + np.exp((time - end) / 20.0)) for end in (500.0, 500.0, 600.0)]
+    factors = (1.0, 1.0, 1.2 if described else 1.0)
+    runs, terms = {}, []
+    for k, (curve, factor) in enumerate(zip(simulated, factors, strict=True)):
+        sample = {"layers": [{"thickness_m": 0.01}], "density_factor": factor}
+        experiment = KINDS["gasification"].description.model_validate(
+            {
+                "kind": "gasification",
+                "sample": sample,
+                "front": {"flux_W_m2": 25e3},
+                "signals": {"mlr": {"file": "synthetic"}},
+                "repeat": {"test": "slab"},
+            }
+        )
+        runs[f"slab_{k}"] = SimpleNamespace(experiment=experiment)
+        terms.append((1.0, SimpleNamespace(target=Target(time, curve))))
+    problem = SimpleNamespace(
+        names=(),
+        runs=runs,
+        picks=[(name, "mlr", np.arange(time.size)) for name in runs],
+        cost=SimpleNamespace(terms=terms),
+        temperature_K=lambda channel: None,
+    )
+    likelihood: Any = SimpleNamespace(problem=problem, split=lambda whole: np.split(whole, 3))
+    curves = np.concatenate(simulated if described else simulated[:1] * 3)
+    assert len(list(differing(likelihood, curves))) == (0 if described else 1)

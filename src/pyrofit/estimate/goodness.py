@@ -25,6 +25,7 @@ from pyrofit.estimate.noise import NoiseModel
 from pyrofit.estimate.posterior import Posterior
 from pyrofit.estimate.projection import spanned_by
 from pyrofit.estimate.repeats_agree import differences, is_held, tolerance_of
+from pyrofit.model.experiment import Experiment
 from pyrofit.numerics import linear
 from pyrofit.quantities.integral import integral
 from pyrofit.results.goodness import LEVEL, Goodness, Miss, RepeatDiffers, SignalGoodness
@@ -73,12 +74,16 @@ def goodness_of_fit(likelihood: Likelihood, posterior: Posterior, curves: FloatA
         _signal(likelihood, k, _together(of_windows[k], of_squares[k]), scatters[k], curves)
         for k in range(len(parts))
     )
-    return Goodness(whole, signals, tuple(_differing(likelihood)))
+    return Goodness(whole, signals, tuple(differing(likelihood, curves)))
 
 
-def _differing(likelihood: Likelihood) -> Iterator[RepeatDiffers]:
-    """Yield the repeats that differ, of tests whose differences no parameter describes."""
-    problem = likelihood.problem
+def differing(likelihood: Likelihood, curves: FloatArray) -> Iterator[RepeatDiffers]:
+    """Yield the repeats that differ, of tests whose differences no parameter describes.
+
+    Where they are described differently, such as boards of other masses, the simulated differences
+    are taken out.
+    """
+    problem, simulated = likelihood.problem, likelihood.split(curves)
     for group in groups_of_repeats(problem):
         temperatures = [problem.temperature_K(i) for i in group]
         times = [problem.cost.terms[i][1].target.time_s for i in group]
@@ -89,9 +94,19 @@ def _differing(likelihood: Likelihood) -> Iterator[RepeatDiffers]:
         at = [t if T is None or held else T for T, t in zip(temperatures, times, strict=True)]
         name, signal, _ = problem.picks[group[0]]
         quantity = problem.runs[name].experiment.quantity(signal)
+        if len({_description(problem.runs[problem.picks[i][0]].experiment) for i in group}) > 1:
+            values = [
+                value - simulated[i] + np.interp(own, at[0], simulated[group[0]])
+                for i, own, value in zip(group, at, values, strict=True)
+            ]
         for d in differences(at, values, tolerance_of(quantity, held)):
             name, signal, _ = problem.picks[group[d.position]]
             yield RepeatDiffers(name, signal, d.kind, d.size, d.low, d.high, held)
+
+
+def _description(experiment: Experiment) -> str:
+    """Return all that a simulation reads of an experiment, but for its records."""
+    return experiment.model_dump_json(exclude={"signals", "title", "repeat"})
 
 
 def scatter(w: FloatArray) -> float:
