@@ -69,6 +69,14 @@ def test_other_pieces_have_none(tmp_path: Path, masses: dict[str, float]) -> Non
     assert not any("weigh" in line for line in said)
 
 
+def test_value_that_jumps_is_no_initial_mass(tmp_path: Path) -> None:
+    files = slabs(tmp_path, {"a_25kW_R1": 90.0, "a_25kW_R2": 110.0})
+    shaken = np.c_[SECONDS, np.where(np.arange(SECONDS.size) == 1, 160.0, 110.0 * LEFT)]
+    np.savetxt(files[1], shaken, "%.6g", ",", header="Time (s),Mass (g)", comments="")
+    study, _ = init("y", {"gasification": files}, tmp_path)
+    assert "thickness_factor: 1.100" in study.read_text("utf-8")
+
+
 def test_record_that_starts_before_its_sample_lies_there_tells_no_mass(tmp_path: Path) -> None:
     files = slabs(tmp_path, {"a_25kW_R1": 90.0, "a_25kW_R2": 110.0})
     late = np.c_[SECONDS, np.where(SECONDS < 60.0, 50.0, 110.0 * LEFT)]

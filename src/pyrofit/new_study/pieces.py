@@ -10,8 +10,10 @@ from pyrofit.quantities import mass
 
 _ONE_THICKNESS = 1.9
 """Ratio of the largest to the smallest mass up to which pieces may have one thickness."""
-_WHOLE = 0.98
-"""Share of its largest value below which a record does not start with the whole sample."""
+_WHOLE = 0.95
+"""Share of its large values, of which `_LARGE` are smaller, below which a record does not start
+with the whole sample. Single values jump."""
+_LARGE = 0.95
 
 
 @dataclass(frozen=True)
@@ -62,7 +64,7 @@ def _initial(run: MeasuredFile) -> float | None:
         return None
     values = frame[mass.QUANTITY.column].to_numpy()
     first = float(np.median(values[: mass.ENDS]))
-    return first if 0.0 < _WHOLE * float(np.max(values)) <= first else None
+    return first if 0.0 < _WHOLE * float(np.quantile(values, _LARGE)) <= first else None
 
 
 def said_of_pieces(tests: Iterable[MeasuredFile]) -> list[str]:
