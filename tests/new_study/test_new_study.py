@@ -682,6 +682,14 @@ def test_slab_with_temperatures_alone_is_in_the_cost_beside_others(folder: Path)
     ]
 
 
+def test_temperatures_of_a_held_out_flux_are_held_out(folder: Path) -> None:
+    for flux in (25, 60):
+        write(f"a_{flux}kW_Mass.csv", "Time [s],Mass [kg/m2]", SECONDS, 7.0 - np.cumsum(MLR) * 10.0)
+        write(f"a_{flux}kW_Temp.csv", "Time [s],Back temperature [K]", SECONDS, BACK_K + flux)
+    study = made("--gasification", *map(str, sorted(folder.glob("a_*.csv"))))
+    assert [term.experiment for term in study.imp.costs["RMSE"]] == ["a_25kW_Mass", "a_25kW_Temp"]
+
+
 def test_rate_is_fitted_where_the_file_has_the_mass_as_well(folder: Path) -> None:
     mass = 7.0 - np.cumsum(MLR) * 10.0
     write("slab_25kW.csv", "Time [s],Mass [g],MLR [g/m2/s]", SECONDS, 10.0 * mass, 1e3 * MLR)

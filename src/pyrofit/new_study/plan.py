@@ -45,7 +45,8 @@ class PartOfPlan:
 def part_of(stage: Stage, records: Iterable[MeasuredFile]) -> PartOfPlan:
     """Return the experiments of a stage, those it holds out, and the terms of its cost.
 
-    Of two or more fluxes of a kind, the experiments with the largest are held out. Of three or
+    Of two or more fluxes of a kind, the experiments with the largest are held out, and with them
+    records of temperatures alone at this flux, which may be of the same tests. Of three or
     more heating rates, those with the middle one are: any correct kinetics predict a rate between
     others. Tests in a gas with oxygen are held out beside others: the model has no oxidation.
     """
@@ -56,7 +57,7 @@ def part_of(stage: Stage, records: Iterable[MeasuredFile]) -> PartOfPlan:
     for kind in dict.fromkeys(run.kind for run in runs):
         own = [run for run in runs if run.kind == kind and run.name not in held]
         own = [run for run in own if _shows_loss(run) or not rate]
-        held += _last(own) if stage == "imp" else _middle(own)
+        held += _with_temperatures(runs, _last(own)) if stage == "imp" else _middle(own)
     terms = [
         TermOfPlan(run.name, signal, normalisation)
         for run in runs
@@ -83,6 +84,13 @@ def _last(runs: Sequence[MeasuredFile]) -> list[str]:
     else:
         last = list(numbers.values())[-1]
     return [name for name, number in numbers.items() if number == last]
+
+
+def _with_temperatures(runs: Sequence[MeasuredFile], held: Sequence[str]) -> list[str]:
+    """Return held-out experiments, and records of temperatures alone of their kind and number."""
+    tests = {(run.kind, run.number) for run in runs if run.name in held and run.told}
+    alone = [run for run in runs if not _shows_loss(run) and run.name not in held]
+    return [*held, *(run.name for run in alone if run.told and (run.kind, run.number) in tests)]
 
 
 def _middle(runs: Sequence[MeasuredFile]) -> list[str]:
