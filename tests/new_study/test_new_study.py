@@ -639,6 +639,16 @@ def test_cone_calorimeter_file_brings_a_flame_and_a_heat_of_combustion(folder: P
     assert study.experiments["run_25kW"].flame.ignition_s == ignition
 
 
+@pytest.mark.parametrize(("lost", "ignition"), [(True, 152.0), (False, 0.0)])
+def test_mass_of_a_cone_tells_when_it_burns(lost: bool, ignition: float, folder: Path) -> None:
+    # One value jumps before.
+    mass = 70.0 - (300.0 * np.cumsum(MLR) if lost else 0.0)
+    write("run_25kW.csv", "Time (s),Mass (g)", SECONDS, np.where(SECONDS == 50.0, 40.0, mass))
+    study = made("--cone", "run_25kW.csv")
+    assert study.experiments["run_25kW"].flame.ignition_s == pytest.approx(ignition, abs=15.0)
+    assert ("1 % of the lost mass" in Path("wood/wood.yaml").read_text("utf-8")) == lost
+
+
 def test_numbered_temperatures_are_a_signal_each(folder: Path) -> None:
     header = "Time [s],MLR [g/m2/s],Back temp 1 [K],Back temp 2 [K]"
     write("slab_25.csv", header, SECONDS, 1e3 * MLR, BACK_K, BACK_K + 5.0)
