@@ -45,8 +45,8 @@ class PartOfPlan:
 def part_of(stage: Stage, records: Iterable[MeasuredFile]) -> PartOfPlan:
     """Return the experiments of a stage, those it holds out, and the terms of its cost.
 
-    Of two or more fluxes of a kind, the experiments with the largest are held out, and with them
-    records of temperatures alone at this flux, which may be of the same tests. Of three or
+    Of two or more fluxes of a kind, the experiments with the largest are held out. So are records
+    of temperatures alone at this flux, which may be of the same tests. Of three or
     more heating rates, those with the middle one are: any correct kinetics predict a rate between
     others. Tests in a gas with oxygen are held out beside others: the model has no oxidation.
     """
