@@ -649,6 +649,14 @@ def test_mass_of_a_cone_tells_when_it_burns(lost: bool, ignition: float, folder:
     assert ("1 % of the lost mass" in Path("wood/wood.yaml").read_text("utf-8")) == lost
 
 
+def test_temperatures_of_a_test_burn_when_its_mass_tells(folder: Path) -> None:
+    write("a_25kW_Mass.csv", "Time (s),Mass (g)", SECONDS, 70.0 - 300.0 * np.cumsum(MLR))
+    write("a_25kW_Temp.csv", "Time [s],Back temperature [K]", SECONDS, BACK_K)
+    study = made("--cone", "a_25kW_Mass.csv", "a_25kW_Temp.csv")
+    times = [e.flame.ignition_s for e in study.experiments.values()]
+    assert times[0] == times[1] > 100.0
+
+
 def test_numbered_temperatures_are_a_signal_each(folder: Path) -> None:
     header = "Time [s],MLR [g/m2/s],Back temp 1 [K],Back temp 2 [K]"
     write("slab_25.csv", header, SECONDS, 1e3 * MLR, BACK_K, BACK_K + 5.0)

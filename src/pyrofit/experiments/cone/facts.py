@@ -20,7 +20,7 @@ def facts(frames: Frames) -> dict[str, Any]:
 
     Without heat release rate and mass there is none.
     """
-    ignition, told = None, ""
+    ignition, told = None, None
     if (frame := frames.get("heat_release_rate")) is not None:
         rate = frame["heat_release_rate_W_m2"]
         ignition = float(frame["time_s"][rate >= BURNS * rate.max()].iloc[0])
