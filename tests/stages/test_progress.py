@@ -1,9 +1,15 @@
-"""One line for searches side by side."""
+"""Lines on long searches."""
 
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
 import pytest
 
 from pyrofit.diagnose.search.progress import ROUGHLY, SECOND, TO_THE_END, SearchProgress, Whole
-from pyrofit.stages.progress import Told
+from pyrofit.estimate.problem import Problem
+from pyrofit.solver.arrays import Status
+from pyrofit.stages.progress import CallsTold, Told, counted
 
 
 def test_searches_side_by_side_share_a_line_with_the_time_left(
@@ -53,3 +59,26 @@ def test_time_left_of_a_diagnosis_falls_and_is_at_least_that_of_the_part() -> No
     now[0] = 800.0
     told(1)
     assert lines[0].endswith("about 90 min left; the diagnosis: about 90 min left")
+
+
+def test_counted_calls_are_told_with_the_time_left(capsys: pytest.CaptureFixture[str]) -> None:
+    now = [0.0]
+    told = CallsTold("CMA-ES, RMSE", 3000, lambda: now[0])
+    for now[0] in (10.0, 20.0, 30.0, 60.0, 90.0):
+        told.add(1000)
+    assert capsys.readouterr().err.splitlines() == [
+        "CMA-ES, RMSE: 2,000 of about 3,000 model calls, about 10 s left",
+        "CMA-ES, RMSE: 4,000 model calls",
+        "CMA-ES, RMSE: 5,000 model calls",
+    ]
+
+
+def test_counted_problem_counts_the_calls_of_a_copy(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Problem, "outcomes", lambda self, values, sets: [(Status.OK, [])] * sets)
+    empty: Any = None
+    one = np.ones(2)
+    problem = Problem(("k", "cp"), 0.0 * one, one, empty, {}, {}, (), empty, empty)
+    told = CallsTold("CMA-ES, RMSE", 10)
+    replace(counted(problem, told), upper=2.0 * one).simulate_all(np.ones((3, 2)))
+    counted(problem, told).simulate(one)
+    assert told.calls == 4

@@ -21,7 +21,7 @@ from pyrofit.results.searches import Descent, End, Repetition, Starts
 from pyrofit.running.shares import at_once, parts_of_repetitions
 from pyrofit.seeds import seed_for
 from pyrofit.solver.arrays import FloatArray, Status
-from pyrofit.stages.progress import Told
+from pyrofit.stages.progress import CallsTold, Told, counted
 from pyrofit.stages.unfinished import Unfinished, sweep
 
 
@@ -166,7 +166,9 @@ def optimise(study: Study, results: Results, cost: str, optimiser: str) -> None:
     """Run an optimiser from several starts on the same cost; write every end, best first."""
     problem = imp_problem(study, results, cost)
     seed = seed_for(study.seed, cost, optimiser)
-    starts = OPTIMISERS[optimiser].searched(problem, getattr(study.imp, optimiser), seed)
+    of, settings = OPTIMISERS[optimiser], getattr(study.imp, optimiser)
+    told = CallsTold(f"{of.words}, {cost}", of.calls(settings, len(problem.names)))
+    starts = of.searched(counted(problem, told), settings, seed)
     ends = [_end(problem, s) for s in starts]
     found = Starts(cost_function=cost, seed=seed, starts=ends)
     write_record(results.starts(cost, optimiser), found)

@@ -1,15 +1,20 @@
-"""One line for searches that run side by side: how far they are, and the time left."""
+"""Lines on long searches: how far they are, and the time left."""
 
 import sys
 import time
 from collections.abc import Callable
+from dataclasses import dataclass, fields
 from functools import partial
 
 from pyrofit.estimate.history import Progress
+from pyrofit.estimate.problem import Outcome, Problem
 from pyrofit.running.durations import in_words
+from pyrofit.solver.arrays import FloatArray
 
 OFTEN_S = 2.0
 """Shortest time between two lines."""
+CALLS_OFTEN_S = 20.0
+"""The same of lines that count model calls."""
 
 
 class Told:
@@ -66,3 +71,57 @@ class Told:
             file=sys.stderr,
             flush=True,
         )
+
+
+class CallsTold:
+    """Tells how many model calls of a search are done, on standard error.
+
+    Parameters
+    ----------
+    label
+        Begins each line.
+    expected
+        Approximate number of calls of the whole search.
+    clock
+        Returns the time [s].
+    """
+
+    def __init__(
+        self, label: str, expected: int, clock: Callable[[], float] = time.monotonic
+    ) -> None:
+        self._label, self._expected, self._clock = label, expected, clock
+        self.calls = 0
+        """Calls that are done."""
+        self._began = self._last = clock()
+
+    def add(self, calls: int) -> None:
+        """Count further calls."""
+        self.calls += calls
+        now = self._clock()
+        if now - self._last < CALLS_OFTEN_S:
+            return
+        self._last = now
+        of, left = "", ""
+        if self.calls < self._expected:
+            rest = (now - self._began) * (self._expected / self.calls - 1.0)
+            of, left = f" of about {self._expected:,}", f", about {in_words(rest)} left"
+        said = f"{self._label}: {self.calls:,}{of} model calls{left}"
+        print(said, file=sys.stderr, flush=True)
+
+
+@dataclass(frozen=True)
+class _Counted(Problem):
+    """A problem that tells how many sets it has simulated."""
+
+    told: CallsTold
+
+    def simulate_all(self, X: FloatArray) -> list[Outcome]:
+        found = super().simulate_all(X)
+        self.told.add(len(X))
+        return found
+
+
+def counted(problem: Problem, told: CallsTold) -> Problem:
+    """Return a problem that tells how many sets it, and any changed copy, has simulated."""
+    own = {field.name: getattr(problem, field.name) for field in fields(Problem)}
+    return _Counted(**own, told=told)
