@@ -1,11 +1,13 @@
 """A page that needs nothing else: measurements, sections, provenance."""
 
+import re
 from collections.abc import Sequence
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
 from jinja2 import Environment, PackageLoader, StrictUndefined, select_autoescape
+from markupsafe import Markup, escape
 
 from pyrofit.config import Study, digest
 from pyrofit.data.fetch import COMMIT
@@ -62,8 +64,17 @@ def _templates() -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    templates.filters["typeset"] = typeset
+    templates.filters["typeset"] = _typeset
     return templates
+
+
+def _typeset(text: str) -> Markup:
+    r"""Set a text, with commands between backticks as code.
+
+    >>> str(_typeset("`pyrofit run <STUDY>` takes 8 s"))
+    '<code>pyrofit run &lt;STUDY&gt;</code> takes 8\xa0s'
+    """
+    return Markup(re.sub(r"`([^`]+)`", r"<code>\1</code>", str(escape(typeset(text)))))
 
 
 def provenance(study: Study, measured: Measured) -> dict[str, Any]:
