@@ -283,6 +283,15 @@ def test_place_of_a_back_temperature_is_asked_once(folder: Path) -> None:
     assert {"back_temperature_2:", "cone_50:"} <= set(after.split())
 
 
+@pytest.mark.parametrize(("slope", "chars"), [(4e-4, True), (4e-3, False)])
+def test_char_that_still_loses_mass_slowly_is_char(slope: float, chars: bool, folder: Path) -> None:
+    kelvin = np.arange(300.0, 900.0, 2.0)
+    mass = 0.25 + 0.75 / (1.0 + np.exp((kelvin - 620.0) / 12.0))
+    mass -= slope * np.maximum(kelvin - 840.0, 0.0)
+    write("tga_10K.csv", "time_s,temperature_K,mass_fraction", 6.0 * (kelvin - 300.0), kelvin, mass)
+    assert ("char" in made("--tga", "tga_10K.csv").material.components) == chars
+
+
 def test_residue_below_a_tenth_gives_one_reaction(folder: Path) -> None:
     char(0.0, residue=0.09)
     study = made("--tga", "tga_10K.csv", "--gasification", "slab_25kW.csv")

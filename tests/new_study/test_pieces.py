@@ -69,6 +69,14 @@ def test_other_pieces_have_none(tmp_path: Path, masses: dict[str, float]) -> Non
     assert not any("weigh" in line for line in said)
 
 
+def test_pieces_of_two_thicknesses_have_two_means(tmp_path: Path) -> None:
+    thick, thin = {"a_25kW_R1": 90.0, "a_25kW_R2": 110.0}, {"a_50kW_R1": 27.0, "a_50kW_R2": 33.0}
+    study, said = made(tmp_path, thick | thin)
+    factors = [study.experiments[name].sample.density_factor for name in (*thick, *thin)]
+    assert factors == pytest.approx([0.9, 1.1, 0.9, 1.1])
+    assert sum("weigh" in line for line in said) == 2
+
+
 def test_value_that_jumps_is_no_initial_mass(tmp_path: Path) -> None:
     files = slabs(tmp_path, {"a_25kW_R1": 90.0, "a_25kW_R2": 110.0})
     shaken = np.c_[SECONDS, np.where(np.arange(SECONDS.size) == 1, 160.0, 110.0 * LEFT)]

@@ -17,14 +17,13 @@ from pyrofit.errors import StudyError
 from pyrofit.experiments import KINDS, files_of, measurable
 from pyrofit.experiments.base import Kind
 from pyrofit.experiments.from_files import Told
+from pyrofit.experiments.heated.from_files import CHAR
 from pyrofit.new_study.columns import FoundColumn, recognise
 from pyrofit.new_study.frames import START_K, StatedCourse, frames_of, lacking
 from pyrofit.new_study.one_reaction import one_reaction_describes
 from pyrofit.quantities import known_quantities
 from pyrofit.quantities.units import ICE_POINT_K
 
-CHAR = 0.1
-"""Residue above which a solid chars."""
 MOIST = 0.01
 """Loss of mass up to 420 K above which a sample is moist."""
 _OXYGEN_PERCENT = 0.5

@@ -1,6 +1,6 @@
 """Pieces of one material that weigh differently: in a new study each has a factor of its own."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -8,8 +8,8 @@ import numpy as np
 from pyrofit.new_study.draft import MeasuredFile
 from pyrofit.quantities import mass
 
-_ONE_THICKNESS = 1.9
-"""Ratio of the largest to the smallest mass up to which pieces may have one thickness."""
+_NEXT = 1.4
+"""Ratio of a mass to the next smaller one from which on pieces have another thickness."""
 _WHOLE = 0.95
 """Share of its large values, of which `_LARGE` are smaller, below which a record does not start
 with the whole sample. Single values jump."""
@@ -23,38 +23,42 @@ class Pieces:
     Parameters
     ----------
     masses_kg_m2
-        Initial masses by record; none where they are nearly equal.
+        Initial masses by record, of pieces of one thickness each; none where they are nearly equal.
     dense
         Whether the density differs, as of boards of wood; else the thickness, as of sheets of a
         plastic.
     """
 
-    masses_kg_m2: Mapping[str, float]
+    masses_kg_m2: Sequence[Mapping[str, float]]
     dense: bool
 
     def line(self, name: str) -> str:
         """Return the line of the study on the sample of a record; nothing where it has none."""
-        if name not in self.masses_kg_m2:
+        alike = next((masses for masses in self.masses_kg_m2 if name in masses), None)
+        if alike is None:
             return ""
-        own, mean = self.masses_kg_m2[name], float(np.mean(list(self.masses_kg_m2.values())))
+        own, mean = alike[name], float(np.mean(list(alike.values())))
         key, other = "density_factor", "thickness"
         if not self.dense:
             key, other = "thickness_factor", "density"
         said = f"{own:.3g} kg/m² over the mean, {mean:.3g}"
-        if name == next(iter(self.masses_kg_m2)):
+        if name == next(iter(alike)):
             said = f"CHANGE where the {other} differs: {said}"
         return f"{key}: {own / mean:.3f} # {said}"
 
 
-def unequal_masses(tests: Iterable[MeasuredFile]) -> dict[str, float]:
-    """Return the initial masses [kg/m2] of slabs by record; none where they are nearly equal.
-
-    Nor are there any where they differ so much that the slabs have not one thickness.
-    """
+def unequal_masses(tests: Iterable[MeasuredFile]) -> list[dict[str, float]]:
+    """Return initial masses [kg/m2] of slabs by record, of each thickness, where they differ."""
     runs = [run for test in tests for run in test.repeats or (test,) if run.of.stage == "imp"]
     masses = {run.name: first for run in runs if (first := _initial(run)) is not None}
-    least, most = min(masses.values(), default=1.0), max(masses.values(), default=1.0)
-    return masses if mass.UNEQUAL * least <= most <= _ONE_THICKNESS * least else {}
+    found, last = list[dict[str, float]](), 0.0
+    for own in sorted(masses.values()):
+        if own > _NEXT * last:
+            found.append({})
+        found[-1] |= {name: first for name, first in masses.items() if first == own}
+        last = own
+    ordered = [{name: masses[name] for name in masses if name in alike} for alike in found]
+    return [m for m in ordered if mass.UNEQUAL * min(m.values()) <= max(m.values())]
 
 
 def _initial(run: MeasuredFile) -> float | None:
@@ -69,10 +73,11 @@ def _initial(run: MeasuredFile) -> float | None:
 
 def said_of_pieces(tests: Iterable[MeasuredFile]) -> list[str]:
     """Say that pieces weigh differently, and what the study makes of it."""
-    masses = unequal_masses(tests).values()
-    if not masses:
-        return []
-    return [
-        f"The samples weigh {min(masses):.3g} to {max(masses):.3g} kg/m² at the start. Each has a "
-        "factor of its own in the study: its mass over the mean."
-    ]
+    lines = []
+    for masses in unequal_masses(tests):
+        least, most = min(masses.values()), max(masses.values())
+        lines.append(
+            f"{len(masses)} samples weigh {least:.3g} to {most:.3g} kg/m² at the start. Each has a "
+            "factor of its own in the study: its mass over the mean."
+        )
+    return lines

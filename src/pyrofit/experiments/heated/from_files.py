@@ -19,6 +19,11 @@ HOLD_K = 5.0
 """Span of temperatures within which one is held."""
 STILL = 0.02
 """Share of the loss of mass in the last tenth of a record from which on the end is no residue."""
+CHAR = 0.1
+"""Residue above which a solid chars."""
+AHEAD = 4.0
+"""Multiple of the loss in that last tenth that may still come. Char is left if more than `CHAR`
+remains then."""
 LEVEL = 0.01
 """Share of the loss of mass above the end up to which a record counts as level."""
 DRY_K, REACTS_K = 420.0, 470.0
@@ -98,7 +103,8 @@ def mass_loss(frames: Frames) -> Loss | None:
     if not below.size or rest >= 0.98 or mass[0] <= 0.0:
         return None
     late = mass[9 * mass.size // 10]
-    goes_on = late - float(np.median(mass[-5:])) > STILL * (mass[0] - rest)
+    lost_late = late - float(np.median(mass[-5:]))
+    goes_on = lost_late > STILL * (mass[0] - rest) and rest - AHEAD * lost_late < CHAR
     half = float(temperature[below[0]])
     dried = int(np.argmax(temperature >= DRY_K)) if half > REACTS_K else 0
     dry = float(np.median(mass[max(dried - 2, 0) : dried + 3])) if dried else float(mass[0])
