@@ -67,7 +67,8 @@ def _way_out(study: Study, names: Sequence[str], position: int) -> str:
     masses = [_relative_mass(study.experiments[name]) for name in names]
     others = float(np.mean(np.delete(masses, position)))
     percent = 100.0 * (masses[position] / others - 1.0)
-    if not abs(percent) >= DESCRIBED_PERCENT:
+    # A sample without a factor of its own is not described as another one.
+    if masses[position] == 1.0 or abs(percent) < DESCRIBED_PERCENT:
         return WAY_OUT
     more = "more" if percent > 0.0 else "less"
     return f"Its sample weighs {abs(percent):.0f} % {more}, and the study describes it so"
