@@ -3,17 +3,14 @@
 from collections.abc import Iterator
 
 from pyrofit.analysis.answer import one_each
-from pyrofit.analysis.best_predicting import never_fitted, of_answer
-from pyrofit.analysis.uses import FITTED
 from pyrofit.config import Study
 from pyrofit.model.parameters import Parameter
 from pyrofit.show.facts import Facts
 from pyrofit.show.goodness import NEXT
 from pyrofit.show.names import STAGES, all_scored
+from pyrofit.show.subjects.answer.predicted import predictions_of, worse_predicted
 from pyrofit.show.text import listed
 
-_WORSE = 2.0
-"""Ratio of errors from which a prediction is said to be worse than the fit."""
 _COMMANDS = {"kinetics": "pyrofit run STUDY scheme", "imp": "pyrofit run STUDY diagnose"}
 """Commands of the steps that follow a misfit, by stage."""
 
@@ -93,15 +90,13 @@ def advice(study: Study, facts: Facts) -> str:
 
 
 def _held_out(facts: Facts) -> str:
-    mine = of_answer(never_fitted(facts.scores))
+    mine = predictions_of(facts)
     if not mine:
         return "No test was held out, so the prediction of other tests is untested."
     text = f"At held-out tests the estimates predict {all_scored(mine)}."
-    fitted = [s for s in of_answer(facts.scores) if s.use == FITTED and s.quantity.relative]
-    held_out = [s.value for s in mine if s.quantity.relative]
-    if fitted and held_out and max(held_out) > _WORSE * max(s.value for s in fitted):
+    if worse_predicted(facts):
         text += (
-            f" That is more than twice the error of the fitted data ({all_scored(fitted)}): find "
-            "first which effect the model lacks."
+            " Find first why they are worse than the fit: an effect that the model lacks, or "
+            "another description of these tests."
         )
     return text

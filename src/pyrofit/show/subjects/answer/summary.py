@@ -9,6 +9,7 @@ from pyrofit.show.goodness import missed_most, verdict_words
 from pyrofit.show.names import STAGES
 from pyrofit.show.parts import Question
 from pyrofit.show.subjects.answer.next_steps import next_steps
+from pyrofit.show.subjects.answer.predicted import worse_predicted
 from pyrofit.show.subjects.answer.publish import publishable
 from pyrofit.show.text import listed, several
 
@@ -17,13 +18,18 @@ NEAR_ONE = (0.5, 1.5)
 
 
 def described_stages(study: Study, facts: Facts) -> Iterator[str]:
-    """Yield for each stage its verdict and where it misses most, then the repeats that differ."""
+    """Yield for each stage its verdict and where it misses most.
+
+    Tests that are predicted worse than the others are fitted follow, and repeats that differ.
+    """
     for stage, found in facts.goodness.items():
         text = verdict_words(STAGES[stage], found)
         if not found.describes:
             text += "".join(f" {where}" for where in missed_most(study, found, 1))
         yield text
         yield from _two_numbers(found, facts.chi2_per_point[stage])
+    if worse := worse_predicted(facts):
+        yield worse
     yield from _repeats(facts)
 
 
