@@ -11,6 +11,7 @@ from pyrofit.data.series import read_series
 from pyrofit.data.spec import SeriesSpec
 from pyrofit.errors import DataError
 from pyrofit.new_study.draft import read_experiment
+from pyrofit.new_study.pieces import Pieces
 from pyrofit.new_study.words import lines_on_file, signal_lines
 
 TIME = np.arange(0.0, 120.0)
@@ -125,7 +126,9 @@ def test_key_without_which_no_heat_release_is_computed_is_told(tmp_path: Path, k
 def test_area_of_an_export_divides_the_mass_in_a_new_study(tmp_path: Path) -> None:
     run = read_experiment("cone", ftt(tmp_path / "A_Cone_50kW_1.csv"))
     assert run.frames["mass"]["mass_kg_m2"].iloc[0] == pytest.approx(0.07 / AREA)
-    assert "        sample_area_m2: 0.00884 # of the file" in signal_lines(run)
+    assert "        sample_area_m2: 0.00884 # of the file" in signal_lines(
+        run, Pieces([], dense=False)
+    )
     assert any(
         "divided by sample_area_m2 0.00884, of the file" in line for line in lines_on_file(run)
     )

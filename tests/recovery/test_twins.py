@@ -20,7 +20,7 @@ from pyrofit.estimate.identify import Identification, identify
 from pyrofit.estimate.likelihood import Likelihood, likelihood_of
 from pyrofit.estimate.posterior import UNIFORM
 from pyrofit.estimate.problem import make_problem
-from pyrofit.estimate.uncertain_apparatus import moves, variances
+from pyrofit.estimate.uncertain_apparatus import Moves, moves
 from pyrofit.experiments.slab.uncertain import PLACES, with_value
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages.measurements import computed
@@ -172,11 +172,15 @@ def test_wrong_description_moves_estimates_as_far_as_told(twins: list[Twin]) -> 
 
     J = likelihood.with_known(likelihood.slopes(x))
     C = np.linalg.inv(J.T @ J + UNIFORM * np.eye(x.size))
-    u = likelihood.whiten(moves(likelihood, x))
+    every = moves(likelihood, x)
     points = sum(likelihood.points)
-    told = 0.1 * (C @ J[:points].T @ u[:, 0])  # the flux is the first error
+    assert every.names[0] == "flux"
+    flux = Moves(("flux",), 0.1 * every.u[:, :1])
+    told = C @ J[:points].T @ likelihood.whiten(flux.u[:, 0])
     assert moved == pytest.approx(-told, abs=0.1 * float(np.max(np.abs(told))))
-    assert variances(C, J[:points], 0.1 * u[:, :1]) == pytest.approx(told**2)
+    sds, most = flux.of_parameters(likelihood, C, J[:points])
+    assert sds == pytest.approx(np.abs(told))
+    assert set(most) == {"flux"}
 
 
 def test_interval_of_a_right_model_leaves_the_apparatus_aside(twins: list[Twin]) -> None:
