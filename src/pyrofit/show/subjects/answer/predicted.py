@@ -4,7 +4,6 @@ from pyrofit.analysis.best_predicting import never_fitted, of_answer
 from pyrofit.analysis.scores import Score
 from pyrofit.analysis.uses import FITTED
 from pyrofit.show.facts import Facts
-from pyrofit.show.names import all_scored
 from pyrofit.show.text import listed
 
 WORSE = 2.0
@@ -33,8 +32,7 @@ def worse_predicted(facts: Facts) -> str:
     if not worse:
         return ""
     titles = [f"the {quantity.title}" for quantity in worse]
-    of_worse = [score for score in of_fit if score.quantity in worse]
     return (
-        f"Held-out tests: the error of {listed(titles)} is more than twice that of the fitted data "
-        f"({all_scored(of_worse)}). Expect such errors of other tests, too."
+        f"Held-out tests: the error of {listed(titles)} is more than twice that of the fitted "
+        "data. Expect such errors of other tests, too."
     )
