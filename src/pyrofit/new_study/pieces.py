@@ -11,9 +11,8 @@ from pyrofit.quantities import mass
 _NEXT = 1.4
 """Ratio of a mass to the next smaller one from which on pieces have another thickness."""
 _WHOLE = 0.95
-"""Share of its large values, of which `_LARGE` are smaller, below which a record does not start
-with the whole sample. Single values jump."""
-_LARGE = 0.95
+"""Share of this quantile of its values, below which a record does not start with the whole sample.
+Its largest value may be one that jumps."""
 
 
 @dataclass(frozen=True)
@@ -51,14 +50,14 @@ def unequal_masses(tests: Iterable[MeasuredFile]) -> list[dict[str, float]]:
     """Return initial masses [kg/m2] of slabs by record, of each thickness, where they differ."""
     runs = [run for test in tests for run in test.repeats or (test,) if run.of.stage == "imp"]
     masses = {run.name: first for run in runs if (first := _initial(run)) is not None}
-    found, last = list[dict[str, float]](), 0.0
-    for own in sorted(masses.values()):
-        if own > _NEXT * last:
-            found.append({})
-        found[-1] |= {name: first for name, first in masses.items() if first == own}
-        last = own
-    ordered = [{name: masses[name] for name in masses if name in alike} for alike in found]
-    return [m for m in ordered if mass.UNEQUAL * min(m.values()) <= max(m.values())]
+    alike, last = list[set[str]](), 0.0
+    for name in sorted(masses, key=masses.__getitem__):
+        if masses[name] > _NEXT * last:
+            alike.append(set())
+        alike[-1].add(name)
+        last = masses[name]
+    found = [{name: masses[name] for name in masses if name in names} for names in alike]
+    return [m for m in found if mass.UNEQUAL * min(m.values()) <= max(m.values())]
 
 
 def _initial(run: MeasuredFile) -> float | None:
@@ -68,7 +67,7 @@ def _initial(run: MeasuredFile) -> float | None:
         return None
     values = frame[mass.QUANTITY.column].to_numpy()
     first = float(np.median(values[: mass.ENDS]))
-    return first if 0.0 < _WHOLE * float(np.quantile(values, _LARGE)) <= first else None
+    return first if 0.0 < _WHOLE * float(np.quantile(values, _WHOLE)) <= first else None
 
 
 def said_of_pieces(tests: Iterable[MeasuredFile]) -> list[str]:

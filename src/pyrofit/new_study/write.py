@@ -5,7 +5,6 @@ import shutil
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from jinja2.loaders import ChoiceLoader
@@ -19,6 +18,7 @@ from pyrofit.new_study import draft
 from pyrofit.new_study.copied import without_copies
 from pyrofit.new_study.divisor import USUAL_AREA_M2
 from pyrofit.new_study.draft import KineticsDraft, MeasuredFile
+from pyrofit.new_study.facts import facts_of
 from pyrofit.new_study.grain import directions_of
 from pyrofit.new_study.marks import asked_once
 from pyrofit.new_study.pieces import Pieces, said_of_pieces, unequal_masses
@@ -267,7 +267,7 @@ def _experiments(
     ``moist``: slabs hold water beside the material. ``pieces``: their masses, where they differ.
     ``directions``: those of the grain, where they need a factor.
     """
-    templates, again, facts = _environment(), titles(runs), _facts(runs)
+    templates, again, facts = _environment(), titles(runs), facts_of(runs)
     first = _firsts(runs)
     return [
         templates.get_template(f"{run.kind}/new.yaml.j2")
@@ -287,27 +287,6 @@ def _experiments(
         .rstrip("\n")
         for run in runs
     ]
-
-
-def _facts(runs: Sequence[MeasuredFile]) -> dict[str, dict[str, Any]]:
-    """Return the facts that files tell, by experiment.
-
-    One that has none takes that of another experiment of its kind and number, which may be a
-    record of the same test.
-    """
-    own = {run.name: files_of(run.kind).facts(run.frames) for run in runs}
-    known: dict[tuple[str, float, str], Any] = {}
-    for run in runs:
-        for key, fact in own[run.name].items():
-            if fact is not None and run.told:
-                known.setdefault((run.kind, run.number, key), fact)
-    return {
-        run.name: {
-            key: known.get((run.kind, run.number, key)) if fact is None and run.told else fact
-            for key, fact in own[run.name].items()
-        }
-        for run in runs
-    }
 
 
 def _firsts(runs: Sequence[MeasuredFile]) -> dict[str, str]:
