@@ -209,6 +209,11 @@ class SlabExperiment(Experiment):
         """Length of a computed record [s], and the keys that set it."""
         return self.duration_s, "duration_s"
 
+    @property
+    def jumps(self) -> bool:
+        """Rates jump at ignition; rates and back temperatures bend sharply at the burn-out."""
+        return True
+
     def burning(self) -> Flame | None:
         """Return the flame; without one, released gas burns at once."""
         return None

@@ -32,11 +32,6 @@ class Cone(SlabExperiment):
             )
         return self
 
-    @property
-    def jumps(self) -> bool:
-        """Whether there is an ignition."""
-        return self.flame is not None
-
     def burning(self) -> Flame | None:
         """Return the flame; without one, released gas burns at once."""
         return self.flame
