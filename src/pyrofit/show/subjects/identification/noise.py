@@ -32,10 +32,11 @@ TABLE = Table(
     make=noise_of_signals,
     title="Noise of the signals, and how the optimum fits them",
     note="The standard deviation is the stated uncertainty, or else that of the scatter about a "
-    "smooth curve. Errors of the clock, 0.5 s, and of the solver are added as squares. A series "
-    "without a stated uncertainty also has lasting errors of its apparatus. p: probability that "
-    "white noise looks as correlated as the whitened scatter. Chi-square per point is near 1 where "
-    "the model fits within the noise; whether it does is tested by the goodness of fit.",
+    "smooth curve. The simulated curve of a slab is subtracted first, if that explains the record "
+    "better. Errors of the clock, 0.5 s, and of the solver are added as squares. A series without "
+    "a stated uncertainty also has lasting errors of its apparatus. p: probability that white "
+    "noise looks as correlated as the whitened scatter. Chi-square per point is near 1 where the "
+    "model fits within the noise; whether it does is tested by the goodness of fit.",
     headings={"chi2_per_point": "chi-square per point"},
     group_by="fit",
 )
