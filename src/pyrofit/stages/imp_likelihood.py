@@ -13,12 +13,14 @@ from pyrofit.results.recorded import load
 from pyrofit.stages.fit import fixed_for_imp
 
 
-def imp_likelihood(study: Study, results: Results, estimation: Estimation) -> Likelihood:
+def imp_likelihood(
+    study: Study, results: Results, estimation: Estimation, searched: bool = True
+) -> Likelihood:
     """Return the likelihood of the inverse modelling, or of the kinetics too.
 
     If a signal jumps, or is recorded against temperature, its noise depends on the ends of the
     searches. Every step takes it about the same set of them, so that all have the same
-    chi-square.
+    chi-square. Only steps before the searches take it about smooth curves (not ``searched``).
 
     Raises
     ------
@@ -26,7 +28,7 @@ def imp_likelihood(study: Study, results: Results, estimation: Estimation) -> Li
         A signal jumps and a search has not run, or a channel is too short to show its noise.
     """
     measurements, fixed = load(study, results), fixed_for_imp(study, results)
-    fits = ends_of_searches(study, results)
+    fits = ends_of_searches(study, results) if searched else ()
     return pose_likelihood(study, estimation, measurements, fixed, fits)
 
 

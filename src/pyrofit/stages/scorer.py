@@ -72,9 +72,16 @@ class Scorer:
 
 
 def scorer_of(
-    study: Study, results: Results, measurements: Measurements, measures: Sequence[Measure]
+    study: Study,
+    results: Results,
+    measurements: Measurements,
+    measures: Sequence[Measure],
+    searched: bool = True,
 ) -> tuple[Scorer, list[str]]:
-    """Return the scorer of some costs, and which cannot be computed and why."""
+    """Return the scorer of some costs, and which cannot be computed and why.
+
+    The likelihood is that of `imp_likelihood`, after the searches or before.
+    """
     fixed = fixed_for_imp(study, results)
 
     def posed(specs: Sequence[TermSpec]) -> Problem:
@@ -84,7 +91,7 @@ def scorer_of(
     if all(measure.terms for measure in measures):
         return Scorer(posed(specs), tuple(measures), None), []
     try:
-        likelihood = imp_likelihood(study, results, of_imp(study))
+        likelihood = imp_likelihood(study, results, of_imp(study), searched)
     except DataError as error:
         rest = tuple(measure for measure in measures if measure.terms)
         if not rest:

@@ -10,19 +10,17 @@ import pandas as pd
 import pytest
 import yaml
 from made_records import noise_of
-from stage_studies import given, study_with
+from stage_studies import given, searched_by_hand, study_with
 
 from pyrofit.cli import main
 from pyrofit.config import Study
 from pyrofit.estimate import ensembles
-from pyrofit.estimate.likelihood import likelihood_of
-from pyrofit.estimate.prior import prior_of
-from pyrofit.estimate.problem import make_problem
-from pyrofit.results import recorded
+from pyrofit.estimate.pose import of_imp
 from pyrofit.results.files import Results, read_csv, write_csv, write_json
 from pyrofit.results.identification import StageNoise, write_noise
 from pyrofit.results.step import write_options
 from pyrofit.stages import fit, identify, measurements
+from pyrofit.stages.imp_likelihood import imp_likelihood
 from pyrofit.steps.posterior import record as posterior
 from pyrofit.steps.posterior.compute import run
 from pyrofit.steps.posterior.page import PAGE
@@ -59,15 +57,8 @@ def identified(study: Study, tmp_path_factory: pytest.TempPathFactory) -> Result
     fit.fit_kinetics(study, results)
     identify.identify_kinetics(study, results)
     truth = np.array([study.true_values()[name] for name in study.imp.estimate])
-    problem = make_problem(
-        study,
-        study.imp.estimate,
-        study.imp.channels,
-        recorded.load(study, results),
-        study.material_with(study.imp.kinetics),
-        fit.fixed_for_imp(study, results),
-    )
-    likelihood = likelihood_of(problem, prior_of(study, problem))
+    searched_by_hand(study, results, dict(zip(study.imp.estimate, truth.tolist(), strict=True)))
+    likelihood = imp_likelihood(study, results, of_imp(study))
     residuals = likelihood.residuals(likelihood.scaled(truth))[: sum(likelihood.points)]
     numbers = dict.fromkeys(
         ("sd", "apparatus_sd", "low", "high", "width", "noise_low", "noise_high", "noise_width"),

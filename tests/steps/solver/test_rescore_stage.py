@@ -8,17 +8,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 import yaml
-from stage_studies import given, study_with
+from stage_studies import given, searched_by_hand, study_with
 
 from pyrofit.cli import main
 from pyrofit.config import Study
-from pyrofit.estimate.likelihood import likelihood_of
-from pyrofit.estimate.prior import prior_of
+from pyrofit.estimate.pose import of_imp
 from pyrofit.estimate.problem import make_problem
 from pyrofit.results import recorded, searches
 from pyrofit.results.files import Results, read_csv
 from pyrofit.results.step import write_options
 from pyrofit.stages import fit, identify, measurements
+from pyrofit.stages.imp_likelihood import imp_likelihood
 from pyrofit.steps.rescore import record as rescored
 from pyrofit.steps.rescore.compute import run
 from pyrofit.steps.rescore.page import PAGE
@@ -41,6 +41,7 @@ def results(study: Study, tmp_path_factory: pytest.TempPathFactory) -> Results:
     identify.identify_kinetics(study, results)
     for cost in study.imp.costs:
         fit.repeat(study, results, cost, range(study.imp.repetitions))
+    searched_by_hand(study, results, study.true_values())
     run(study, results, print, 1)
     write_options(study, results, "rescore")
     PAGE.write(study, results)
@@ -92,7 +93,7 @@ def test_scores_are_those_of_each_cost_alone(study: Study, results: Results) -> 
     assert mine["NRMS"] == pytest.approx(rms / np.ptp(measured), rel=1e-12)
     share = np.abs(measured) / (np.abs(model - measured) + 0.1 * np.abs(measured))
     assert mine["GPYRO"] == pytest.approx(1.0 - 0.01 * np.mean(share**2), rel=1e-12)
-    likelihood = likelihood_of(problem, prior_of(study, problem))
+    likelihood = imp_likelihood(study, results, of_imp(study))
     chi2 = likelihood.chi2(likelihood.scaled(values))
     assert mine["chi2"] == pytest.approx(chi2, rel=1e-9)
 

@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 import pytest
 import yaml
+from stage_studies import searched_by_hand
 from twin_of_sensitivity import described
 
 from pyrofit.analysis import data_worth
@@ -47,9 +48,10 @@ def asking(study: Study, **options: Any) -> Study:
 
 
 def prepared(study: Study, folder: Path) -> Results:
-    """Return results with measurements and estimates: the truth."""
+    """Return results with measurements, searches and estimates: the truth."""
     results = Results(folder)
     measurements.prepare(study, results)
+    searched_by_hand(study, results, TRUTH)
     frame = pd.DataFrame({"parameter": TRUTH.keys(), "estimate": TRUTH.values()})
     write_csv(results.identification("estimate.csv"), frame.assign(sd=1.0))
     return results

@@ -42,7 +42,8 @@ def run(study: Study, results: Results, tell: Tell, processes: int) -> None:
     measurements = load(study, results)
     known, left_out = measures_of(study, measurements)
     measures = [m for m in known if m.name in study.imp.costs or not m.name.endswith(LITERAL)]
-    scorer, more = scorer_of(study, results, measurements, [_signals(study), *measures])
+    scored = [_signals(study), *measures]
+    scorer, more = scorer_of(study, results, measurements, scored, searched=False)
     inputs, problem = varied_inputs(study, results, scorer.problem, options.within)
     sampler = Sampler(Scorer(problem, scorer.measures, scorer.likelihood), inputs, _times(scorer))
     seed = seed_for(study.seed, "sensitivity")

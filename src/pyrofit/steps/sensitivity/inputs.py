@@ -20,7 +20,7 @@ def slice_of(study: Study) -> dependencies.Slice:
 
 
 INPUTS = Inputs(
-    reads=("measurements", "kinetics", "programs", "fits_for_noise"),
+    reads=("measurements", "kinetics", "programs"),
     slice_of=slice_of,
     files=(
         record.FILE,
