@@ -242,6 +242,27 @@ def test_one_of_two_planted_effects_explains_a_part_where_one_is_the_most() -> N
     assert any("(mass loss rate" in one for one in signals)
 
 
+@pytest.mark.parametrize("p_value", [0.01, 0.2])
+def test_claim_beside_misfit_is_confirmed_only_where_strengths_agree(
+    monkeypatch: pytest.MonkeyPatch, p_value: float
+) -> None:
+    def trusted(*given: Any) -> Trust:
+        return replace(real(*given), disagree=p_value)
+
+    real = places.trust
+    monkeypatch.setattr(places, "trust", trusted)
+    verdict = verdict_on(searched(planted(k_T=0.8, c_T=-0.7), most=1))
+    assert verdict.kind == "partly"
+    asked = "the experiments ask for different strengths of "
+    if p_value == 0.2:
+        assert verdict.confirmed
+        assert not any(reason.startswith(asked) for reason in verdict.reasons)
+    else:
+        assert "seems to lack" in sentences(verdict)
+        assert verdict.reasons[-1].startswith(asked)
+        assert verdict.reasons[-1].endswith("(p = 0.01)")
+
+
 def test_alternatives_of_one_of_two_effects_keep_the_other() -> None:
     found = searched(planted(k_T=0.8, c_T=-0.7), alike("k_T", "heater_ramp"))
     names = dict(alternatives(found, "k_T"))

@@ -126,6 +126,15 @@ class Finding:
         return [other.words for other in self.others if other.fits_as_well]
 
     @property
+    def hardly_agrees(self) -> bool:
+        """Whether experiments ask for strengths that differ more than a firm claim allows.
+
+        An effect that stands for another one explains a part of each experiment, with a strength
+        of its own in each. The tests of the residuals tell this only where nothing else is left.
+        """
+        return self.kept[0].trust.disagree < SETTINGS.firm_agreement
+
+    @property
     def outvoted(self) -> bool:
         """Whether one held-out experiment is against one of them, and the others are for it."""
         return any(judged.trust.outvoted for judged in self.kept)
@@ -174,5 +183,7 @@ class Verdict:
     def confirmed(self) -> bool:
         """Whether the effects predict signals that were not fitted, and nothing else does so."""
         if self.kind == "partly":
-            return not any(f.outvoted or f.open_terms or f.instead for f in self.findings)
+            return not any(
+                f.outvoted or f.open_terms or f.instead or f.hardly_agrees for f in self.findings
+            )
         return self.kind in ("named", "multiple") and all(f.sure for f in self.findings)

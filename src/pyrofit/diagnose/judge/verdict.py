@@ -131,7 +131,13 @@ def _partly(
     if not any(judged.trust.outvoted for judged in leading):
         findings = tuple(_with_other_terms(found, findings, without, processes))
     suspects = _suspects(found, processes)
-    reasons = (_rest(found), *_outvoted(leading), *_open_terms(findings), *_instead(findings))
+    reasons = (
+        _rest(found),
+        *_outvoted(leading),
+        *_open_terms(findings),
+        *_instead(findings),
+        *_hardly_agreeing(findings),
+    )
     return Verdict("partly", found, tuple(findings), reasons, suspects, tuple(taken_away))
 
 
@@ -264,6 +270,16 @@ def _instead(findings: Sequence[Finding]) -> list[str]:
     return [
         f"{_joined(one.replaced)} may be replaced by {_joined(one.by)}, with nearly as good a fit"
         for one in exchanges.values()
+    ]
+
+
+def _hardly_agreeing(findings: Sequence[Finding]) -> list[str]:
+    """Name effects whose strength differs between experiments, beside misfit that is left."""
+    return [
+        f"the experiments ask for different strengths of {_title(finding.leading)} "
+        f"(p = {finding.kept[0].trust.disagree:.2g})"
+        for finding in findings
+        if finding.hardly_agrees
     ]
 
 
