@@ -175,7 +175,7 @@ def test_given_candidates_are_the_only_ones() -> None:
     study = study_with(diagnosis={"effects": ["k_T", "c_T"], "most_effects": 1})
     assert candidate_effects(study) == ("k_T", "c_T")
     assert study.diagnosis.most_effects == 1
-    assert study_with().diagnosis.most_effects == 6
+    assert study_with().diagnosis.most_effects == 3
 
 
 # --- truths ---------------------------------------------------------------------------------

@@ -36,7 +36,7 @@ class Diagnosis(Part):
         description="plausible range of the strength of an effect of apparatus or surroundings, SI "
         "unit, two standard deviations to either side. None = that of the catalogue",
     )
-    most_effects: int = Field(6, ge=1, le=6, description="effects that are added at most")
+    most_effects: int = Field(3, ge=1, le=6, description="effects that are added at most")
 
     @model_validator(mode="before")
     @classmethod
