@@ -32,8 +32,9 @@ LIKE_PARABOLA = 0.2
 class Fit:
     """Where a descent ended: chi-square, x, whitened residuals and their derivatives there.
 
-    chi2 counts known values, too; ``slopes`` are the derivatives, exact at x only where they are
-    ``fresh``. A descent that ``returned`` ended on its way to a known fit.
+    chi2 counts known values, too; ``slopes`` are the derivatives, made at x only where they are
+    ``fresh``, and there of second order where they are ``exact``. A descent that ``returned`` ended
+    on its way to a known fit.
     """
 
     chi2: float
@@ -42,11 +43,17 @@ class Fit:
     slopes: FloatArray | Columns
     fresh: bool = True
     returned: bool = False
+    exact: bool = True
 
     def __post_init__(self) -> None:
         """Keep the derivatives without zeros: a search has hundreds of fits."""
         if not isinstance(self.slopes, Columns):
             object.__setattr__(self, "slopes", Columns.of(self.slopes))
+
+    @property
+    def order(self) -> int:
+        """Order of the derivatives, 0 where they were made elsewhere and updated."""
+        return 2 if self.exact and self.fresh else int(self.fresh)
 
     @property
     def jacobian(self) -> FloatArray:

@@ -30,7 +30,7 @@ INWARDS = 0.1
 SUFFIX = ".npz"
 OF_FRESH = ("x", "returned")
 """Fields that are kept of a descent that ends with derivatives made there."""
-OF_ANY = ("chi2", "x", "residuals", "jacobian", "fresh", "returned")
+OF_ANY = ("chi2", "x", "residuals", "jacobian", "fresh", "returned", "exact")
 """Those of any other descent, in the order of a fit."""
 
 
