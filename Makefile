@@ -1,6 +1,6 @@
 # make campaign   everything from nothing: environment, data, the whole study, report
 # make test       everything from nothing: environment, all tests but the long ones
-# make test-long  the tests of whole studies, blind tests, kills, full disks, compilation anew;
+# make test-long  the tests of whole studies, blind tests, statistics, kills, full disks, compilation;
 #                 PART=1/3 make test-long runs a third of their files
 # make test-fast  the tests that neither run the solver nor Snakemake
 # make docs       the documentation as a site, build/docs/index.html

@@ -26,7 +26,7 @@ from pyrofit_blind_test.table import row_of
 from pyrofit_blind_test.thin import KEPT, SPACING_S, thin
 from pyrofit_blind_test.twin import describe_twin, make_twin, without_effects
 
-CONFIG = Path(__file__).parents[2] / "config"
+CONFIG = Path(__file__).parents[3] / "config"
 FILE = CONFIG / "foreign_truth.yaml"
 KINDS = {
     "foreign_truth": {"null": 1, "effect": 11, "pair": 2},

@@ -13,7 +13,7 @@ from pyrofit.estimate.problem import Problem, make_problem
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages.measurements import computed
 
-SMOKE = Path(__file__).parents[2] / "config" / "smoke.yaml"
+SMOKE = Path(__file__).parents[3] / "config" / "smoke.yaml"
 TRUTH = {"T_p": 605.0, "E_p": 190e3, "rho": 1190.0, "k": 0.2, "cp": 2100.0, "eps": 0.9, "dh": 800e3}
 
 

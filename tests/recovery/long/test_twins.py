@@ -26,7 +26,7 @@ from pyrofit.experiments.slab.uncertain import PLACES, with_value
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.stages.measurements import computed
 
-TWIN = Path(__file__).parents[2] / "config" / "twin.yaml"
+TWIN = Path(__file__).parents[3] / "config" / "twin.yaml"
 ESTIMATED = ("rho_a", "k_a", "cp_a", "eps_a", "dh")
 
 # Fixed beforehand, from the sensitivities in the middle of the limits: there the 95 % intervals of
