@@ -84,9 +84,13 @@ def _explained(
     """
     spare = 2.0 * float(functions.log(max(len(candidates), 1)))
     found: list[FittedModel] = []
+    shown: set[str] = set()
     for _ in range(SETTINGS.most_of_kinetics):
         names = [name for name in candidates if name not in trial.effects]
-        looks = [look for look in look_at(trial, names, processes) if look.detectability > 1.0]
+        looks = look_at(trial, names, processes)
+        # A reaction of the base may have taken the part of an effect that was shown before.
+        shown |= {look.effect for look in looks if look.detectability > 1.0}
+        looks = [look for look in looks if look.effect in shown]
         looks = sorted(looks, key=lambda look: float(look.ahead.min()))[: SETTINGS.most_formed]
         if not looks:
             break
