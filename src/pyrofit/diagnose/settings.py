@@ -30,7 +30,7 @@ class Settings:
     """Refused steps in a row, each with ten times the damping, before a descent ends."""
     most_refused_updated: int = MOST_REFUSED_UPDATED
     """Refused steps in a row with updated derivatives, before these are made anew."""
-    converged_gain: float = 0.05
+    converged_gain: float = 0.01
     """A descent ends where the next step promises less of chi-square."""
     ridge: float = RIDGE
     """Added to the curvature, so that a parameter without influence does not move."""
