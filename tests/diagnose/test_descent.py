@@ -33,7 +33,7 @@ class Fake:
         self.asked.append(x.copy())
         return self.function(x)
 
-    def jacobian(self, x: FloatArray, residuals: FloatArray) -> FloatArray:
+    def jacobian(self, x: FloatArray, residuals: FloatArray, order: int = 2) -> FloatArray:
         by = np.where(x < 0.5, 1e-6, -1e-6)
         rows = [
             (self.residuals(x + by * row) - residuals) / by[i]

@@ -24,7 +24,8 @@ def descend_chi_square(
     """Minimise chi-square from x, with derivatives to begin with if some are at hand.
 
     Its derivatives are of first order, which takes half of the runs and leads to the same end. It
-    ends where fresh ones promise less than ``enough``, or where it leads to a fit that is ``known``. The parameter at position ``fixed`` keeps its value. Parameters that no run uses, as
+    ends where fresh ones promise less than ``enough``, or where it leads to a fit that is
+    ``known``. The parameter at position ``fixed`` keeps its value. Parameters that no run uses, as
     those of an experiment left out, take their known values.
     """
     start = model.with_idle_known(x, fixed)
