@@ -8,7 +8,6 @@ from pyrofit.config import Study, as_study
 from pyrofit.diagnose.diagnosis import diagnose
 from pyrofit.stages.measurements import computed
 
-pytestmark = pytest.mark.long
 CHAR = {"density_kg_m3": 110, "specific_heat_J_kgK": 1200, "emissivity": 0.95}
 WOOD = {"density_kg_m3": 500, "specific_heat_J_kgK": 1800, "emissivity": 0.9}
 SIGNALS = {
