@@ -69,9 +69,12 @@ def test_numbers_that_the_page_shows_are_found(followed: Followed) -> None:
     assert [points for _, points in said] == [points for _, points in told]
     for (there, _), (here, _) in zip(told, said, strict=True):
         assert float(here) == pytest.approx(float(there), abs=1.0)
-    assert "| gasification at 25 kW/m², double the thickness, with the back temperature | 6." in (
-        followed.said
-    )
+    row = re.compile(r"^\| (gasification at [^|]+?) +\| +([\d.]+) +\|$", re.M)
+    told, said = row.findall("\n".join(shown(TUTORIAL))), row.findall(followed.said)
+    assert len(told) == 3
+    assert [name for name, _ in said[:3]] == [name for name, _ in told]
+    for (_, there), (_, here) in zip(told, said, strict=False):
+        assert float(here) == pytest.approx(float(there), rel=0.03)
 
 
 def test_gap_shrinks_and_the_truth_is_found(followed: Followed) -> None:
