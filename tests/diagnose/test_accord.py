@@ -21,6 +21,7 @@ from pyrofit.diagnose.judge.power import expected_gain
 from pyrofit.diagnose.judge.weights import group_weights
 from pyrofit.diagnose.search.step import SearchStep
 from pyrofit.diagnose.search.stepwise import Search
+from pyrofit.diagnose.settings import Settings
 from pyrofit.effects import known_effects
 from pyrofit.estimate.posterior import UNIFORM
 from pyrofit.estimate.prior import NormalPrior
@@ -141,7 +142,8 @@ def test_known_values_weigh_more_beside_signals_that_are_missed_for_long() -> No
 
 def test_noise_hardly_ever_weighs_known_values() -> None:
     rng = np.random.default_rng(4)
-    factors = [significant_factor(rng.standard_normal(200)) for _ in range(1000)]
+    level = Settings().lasting_level
+    factors = [significant_factor(rng.standard_normal(200), level) for _ in range(1000)]
     assert sum(factor > 1.0 for factor in factors) <= 15
 
 

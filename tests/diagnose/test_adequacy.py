@@ -8,7 +8,7 @@ import pytest
 
 from pyrofit.diagnose.base.adequacy import LackOfFit, lack_of_fit
 from pyrofit.diagnose.search.refit import look_at
-from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.diagnose.settings import Settings
 from pyrofit.estimate.projection import project, projector
 from pyrofit.estimate.scan import Stretch, windows_of
 from pyrofit.solver.arrays import FloatArray
@@ -71,8 +71,8 @@ def test_chi_square_of_noise_exceeds_its_critical_value_at_its_level(
     left: FloatArray, critical: LackOfFit
 ) -> None:
     count = int(np.sum(np.sum(left**2, axis=1) > critical.chi2_critical))
-    assert abs(count - SETTINGS.false_alarm_level * DRAWS) < 4.0 * np.sqrt(
-        SETTINGS.false_alarm_level * DRAWS
+    assert abs(count - Settings().false_alarm_level * DRAWS) < 4.0 * np.sqrt(
+        Settings().false_alarm_level * DRAWS
     )
 
 
@@ -131,7 +131,7 @@ def test_windows_never_overlap_and_stand_in_order(seed: int) -> None:
     rng = np.random.default_rng(seed)
     w = 3.0 * np.sin(np.linspace(0.0, 30.0, 300)) + rng.standard_normal(300)
     found = windows_of(w, 1.5)
-    assert 4 <= len(found) <= SETTINGS.most_windows
+    assert 4 <= len(found) <= Settings().most_windows
     ends = [0, *(edge for s in found for edge in (s.start, s.end)), 300]
     assert ends == sorted(ends)
     for s in found:

@@ -11,7 +11,7 @@ from pyrofit.config import candidate_effects
 from pyrofit.diagnose.base.descent import descend_chi_square
 from pyrofit.diagnose.base.fit import set_up, start_points
 from pyrofit.diagnose.base.model import model_of
-from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.diagnose.settings import Settings
 from pyrofit.effects import known_effects
 from pyrofit.errors import DataError
 from pyrofit.estimate.likelihood import FAILED, Likelihood
@@ -31,13 +31,13 @@ def test_starts_are_spread_within_the_limits_by_the_seed(series: Measurements) -
     base = set_up(study(), series).base.model.base
     first, again, other = start_points(base, 5), start_points(base, 5), start_points(base, 6)
     points = np.array(first)
-    assert points.shape == (1 + SETTINGS.base_starts, len(LIMITS))
+    assert points.shape == (1 + Settings().base_starts, len(LIMITS))
     assert first[0].tolist() == [0.5] * len(LIMITS)
     assert points.min() >= 0.05
     assert points.max() <= 0.95
     # Latin: of each parameter one value in each of as many bins as there are points.
-    bins = np.sort(((points[1:] - 0.05) / 0.9 * SETTINGS.base_starts).astype(int), axis=0)
-    assert np.array_equal(bins, np.tile(np.arange(SETTINGS.base_starts)[:, None], len(LIMITS)))
+    bins = np.sort(((points[1:] - 0.05) / 0.9 * Settings().base_starts).astype(int), axis=0)
+    assert np.array_equal(bins, np.tile(np.arange(Settings().base_starts)[:, None], len(LIMITS)))
     assert np.array_equal(points, again)
     assert not np.array_equal(points, other)
 
@@ -51,7 +51,7 @@ def test_known_parameters_start_at_what_is_known(series: Measurements) -> None:
         i = names.index(name)
         factor = study().parameters[name].factor
         assert problem.span[i] == pytest.approx(6.0 * known["sd"] * factor)
-        assert points[:, i] == pytest.approx(np.full(1 + SETTINGS.base_starts, 0.5))
+        assert points[:, i] == pytest.approx(np.full(1 + Settings().base_starts, 0.5))
 
 
 def test_knowledge_is_in_si_units_and_pulls_its_parameter(series: Measurements) -> None:

@@ -18,7 +18,7 @@ from pyrofit.diagnose.judge.claim_tests import Trust, disagreement, explains, tr
 from pyrofit.diagnose.judge.findings import Finding, Judged, Verdict
 from pyrofit.diagnose.result.verdict_text import sentences
 from pyrofit.diagnose.search.stepwise import Search
-from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.diagnose.settings import Settings
 from pyrofit.estimate.posterior import UNIFORM
 from pyrofit.estimate.prior import NormalPrior
 from pyrofit.model.repeats import RepeatOf
@@ -135,7 +135,7 @@ def test_strengths_that_differ_between_experiments_disagree() -> None:
     column = column_of(COLUMNS, "k_T")
     twice = truth(0.2 * typical) + 0.2 * typical * column * SLAB_60
     differing = linear.fit_with(linear.fit(COLUMNS, twice), "k_T")
-    assert p_of(differing) < SETTINGS.agreement_level
+    assert p_of(differing) < Settings().agreement_level
     assert p_of(linear.fit_with(linear.fit(COLUMNS, truth(0.2 * typical)), "k_T")) > 0.01
 
 
@@ -238,7 +238,7 @@ def test_prediction_of_little_power_does_not_reject_an_effect_alone(
 
 def test_sign_of_a_deciding_gain_is_wrong_in_a_twentieth_of_all_cases() -> None:
     """ln p(y | d) - ln p(y | 0) of y = d + noise has the mean |d|^2/2."""
-    d = np.full(8, np.sqrt(2.0 * SETTINGS.deciding_gain / 8))
+    d = np.full(8, np.sqrt(2.0 * Settings().deciding_gain / 8))
     y = d + np.random.default_rng(4).standard_normal((40_000, 8))
     gain = 0.5 * (np.sum(y**2, axis=1) - np.sum((y - d) ** 2, axis=1))
     assert np.mean(gain < 0.0) == pytest.approx(0.05, abs=0.004)

@@ -10,7 +10,7 @@ import pytest
 from scipy.optimize import lsq_linear
 
 from pyrofit.diagnose.base.descent import descend_chi_square, refreshed
-from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.diagnose.settings import Settings
 from pyrofit.numerics.linear import dot
 from pyrofit.solver.arrays import FloatArray
 
@@ -24,7 +24,9 @@ class Fake:
     function: Function
     asked: list[FloatArray] = field(default_factory=list)
     idle: tuple[int, ...] = ()
-    base: SimpleNamespace = field(default_factory=lambda: SimpleNamespace(journal=None))
+    base: SimpleNamespace = field(
+        default_factory=lambda: SimpleNamespace(journal=None, settings=Settings())
+    )
 
     def with_idle_known(self, x: FloatArray, fixed: int | None) -> FloatArray:
         return x
@@ -64,7 +66,7 @@ def test_curved_valley_is_followed_to_its_lowest_point_from_every_side(
     start: tuple[float, float],
 ) -> None:
     end = descend_chi_square(fake(rosenbrock), np.array(start))
-    assert end.chi2 < SETTINGS.converged_gain
+    assert end.chi2 < Settings().converged_gain
     assert end.x == pytest.approx([0.75, 0.75], abs=0.01)
 
 
@@ -77,7 +79,7 @@ def test_linear_model_ends_at_the_normal_equations_solution() -> None:
         end = descend_chi_square(fake(linear(A, y)), start)
         assert end.x == pytest.approx(exact, abs=1e-3)
         assert end.chi2 == pytest.approx(
-            float(np.sum((A @ exact - y) ** 2)), abs=SETTINGS.converged_gain
+            float(np.sum((A @ exact - y) ** 2)), abs=Settings().converged_gain
         )
 
 
@@ -100,7 +102,7 @@ def test_rough_descent_asks_less_and_ends_near() -> None:
     rough, fine = fake(rosenbrock), fake(rosenbrock)
     ends = [
         descend_chi_square(model, np.array([0.2, 0.75]), enough=enough)
-        for model, enough in ((rough, 5.0), (fine, SETTINGS.converged_gain))
+        for model, enough in ((rough, 5.0), (fine, Settings().converged_gain))
     ]
     assert len(rough.asked) < len(fine.asked)
     assert ends[1].chi2 <= ends[0].chi2
@@ -116,7 +118,7 @@ def test_parameters_rest_exactly_at_limits_and_the_others_are_best_beside_them(s
     assert set(np.flatnonzero(end.x == 1.0)) == set(np.flatnonzero(bounded.active_mask == 1))
     assert set(np.flatnonzero(end.x == 0.0)) == set(np.flatnonzero(bounded.active_mask == -1))
     assert bounded.active_mask.any()
-    assert end.chi2 == pytest.approx(2.0 * bounded.cost, abs=SETTINGS.converged_gain)
+    assert end.chi2 == pytest.approx(2.0 * bounded.cost, abs=Settings().converged_gain)
     assert end.x == pytest.approx(bounded.x, abs=5e-3)
 
 
@@ -146,7 +148,7 @@ def test_valley_that_leaves_the_limits_is_followed_until_there(start: tuple[floa
     end = descend_chi_square(fake(beyond), np.array(start))
     # Best at u = 0.4 and v = u^2.
     assert end.x == pytest.approx([1.0, 0.24], abs=1e-3)
-    assert end.chi2 == pytest.approx(18.0**2, abs=SETTINGS.converged_gain)
+    assert end.chi2 == pytest.approx(18.0**2, abs=Settings().converged_gain)
 
 
 def test_start_outside_the_limits_is_brought_within() -> None:
@@ -187,7 +189,7 @@ def test_parameter_that_changes_nothing_stays_where_it_is() -> None:
 def test_two_parameters_that_do_the_same_are_no_obstacle() -> None:
     A = 20.0 * np.ones((5, 2))
     end = descend_chi_square(fake(linear(A, np.full(5, 18.0))), np.array([0.1, 0.2]))
-    assert end.chi2 < SETTINGS.converged_gain
+    assert end.chi2 < Settings().converged_gain
     assert end.x.sum() == pytest.approx(0.9, abs=1e-3)
 
 

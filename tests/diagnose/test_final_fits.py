@@ -1,6 +1,5 @@
 """The fits of a verdict: runs as fine as the study asks for, and intervals over several models."""
 
-import sys
 from dataclasses import replace
 
 import linear
@@ -10,7 +9,7 @@ from linear import TOTAL, column_of, fit_with
 from small import base_of, clean, measured, study, truth_of
 
 from pyrofit.diagnose.base import accuracy
-from pyrofit.diagnose.base.accuracy import tolerated_error, with_accuracy
+from pyrofit.diagnose.base.accuracy import with_accuracy
 from pyrofit.diagnose.base.descent import descend_chi_square, refreshed
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import model_of, name_of, strength_of
@@ -28,7 +27,7 @@ from pyrofit.diagnose.judge.verdict import judge
 from pyrofit.diagnose.result.candidates import candidate_records
 from pyrofit.diagnose.search.step import SearchContext
 from pyrofit.diagnose.search.stepwise import Search, search_effects
-from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.diagnose.settings import Settings
 from pyrofit.model.accuracy import Accuracy
 from pyrofit.solver.arrays import FloatArray
 
@@ -179,12 +178,13 @@ def test_two_effects_in_the_place_of_one_widen_the_interval_of_the_others() -> N
     assert end.parameters[name].high_wide >= own["high"]
 
 
-def test_result_is_that_of_the_final_fits(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_result_is_that_of_the_final_fits() -> None:
     # However large the error of coarse runs, the search takes them.
-    settings = replace(SETTINGS, most_solver_error=1e9)
-    monkeypatch.setattr(sys.modules[tolerated_error.__module__], "SETTINGS", settings)
+    settings = replace(Settings(), most_solver_error=1e9)
     described = study(effects=["k_T"])
-    found = examine(described, measured({"k_T": -1e-3}, 1), advise=False)
+    data = measured({"k_T": -1e-3}, 1)
+    found = examine(described, data, advise=False, settings=settings)
+    assert found.content.settings["most_solver_error"] == 1e9
     assert found.content.solver.coarsened
     assert found.end.effects == ("k_T",)
     searched, end = (fit.model.likelihood.problem.accuracy for fit in (found.search.end, found.end))

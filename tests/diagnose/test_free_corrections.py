@@ -172,8 +172,7 @@ def test_nothing_is_absorbed_where_nothing_is_hidden() -> None:
 @pytest.mark.parametrize("number", range(6))
 def test_zero_coefficients_are_the_base_and_each_other_value_is_not(number: int) -> None:
     trial = twin(nothing, MLR)
-    likelihood = trial.model.likelihood
-    correction = fitted_corrections(likelihood.problem, likelihood.values(trial.fit.x))[number]
+    correction = fitted_corrections(trial)[number]
     model = with_coefficients(trial.model, correction)
     count = len(correction.sd)
     zero = np.append(trial.fit.x, np.full(count, 0.5))
@@ -194,7 +193,9 @@ def test_described_flux_with_a_step_and_a_parameter_is_multiplied() -> None:
     fitted = twin(nothing, MLR)
     problem = fronts(flux_W_m2=steps)(fitted.model.likelihood.problem)
     problem = replace(problem, fixed={**problem.fixed, "q": 1e4})
-    (correction, *_) = fitted_corrections(problem, fitted.model.likelihood.values(fitted.fit.x))
+    likelihood = replace(fitted.model.likelihood, problem=problem)
+    fitted = replace(fitted, model=replace(fitted.model, likelihood=likelihood))
+    (correction, *_) = fitted_corrections(fitted)
     derived: Any = correction.problem
     found = derived.derive({**problem.fixed, **dict.fromkeys(correction.sd, 0.1)})
     table = derived.runs["capa_60"].experiment.front.flux_W_m2

@@ -7,12 +7,16 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
+import linear
 import numpy as np
 import pytest
 from small import measured, study
 
+from pyrofit.diagnose.base.descent import descend_chi_square
 from pyrofit.diagnose.base.journal import OF_ANY, Journal, name_of_descent
+from pyrofit.diagnose.base.model import model_of
 from pyrofit.diagnose.diagnosis import DiagnosisWork, examine
+from pyrofit.diagnose.settings import Settings
 from pyrofit.estimate.bounded_least_squares import Fit
 from pyrofit.solver.arrays import FloatArray
 
@@ -83,6 +87,16 @@ def test_name_tells_start_model_and_everything_else() -> None:
     ]
     assert len(set(names)) == len(names)
     assert names[0] == name_of_descent(line(1.0), X.copy())
+
+
+def test_descent_with_other_settings_is_another_one(tmp_path: Path) -> None:
+    columns, y = linear.random_columns(1), np.zeros(linear.TOTAL)
+    journal = Journal(tmp_path, worth_s=0.0)
+    for most_steps, kept in ((50, 1), (1, 2), (50, 2)):
+        settings = replace(Settings(), most_steps=most_steps)
+        base = replace(linear.base(columns, y, settings=settings), journal=journal)
+        descend_chi_square(model_of(base, {}), X)
+        assert len(journal) == kept
 
 
 def diagnosed(journal: Journal | None) -> DiagnosisWork:

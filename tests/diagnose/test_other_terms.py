@@ -19,6 +19,7 @@ from pyrofit.diagnose.judge.verdict import judge
 from pyrofit.diagnose.result.verdict_text import sentences
 from pyrofit.diagnose.search.step import SearchContext
 from pyrofit.diagnose.search.stepwise import search_effects
+from pyrofit.diagnose.settings import Settings
 from pyrofit.effects import known_effects
 from pyrofit.estimate.problem import Problem
 from pyrofit.solver.arrays import FloatArray
@@ -64,7 +65,7 @@ def offered(monkeypatch: pytest.MonkeyPatch, share: float, probe: str = "front_h
     monkeypatch.setattr(
         module,
         "fitted_corrections",
-        lambda problem, x: [correction(problem, like_k_T(share), probe)],
+        lambda trial: [correction(trial.model.likelihood.problem, like_k_T(share), probe)],
     )
 
 
@@ -98,9 +99,9 @@ def test_correction_that_does_something_else_does_not(monkeypatch: pytest.Monkey
 
 
 def test_certainty_needs_odds_of_22_000_to_1() -> None:
-    limit = 2.0 * np.log(22_000.0)
-    assert OtherTerm(WORDS, limit - 0.1).fits_as_well
-    assert not OtherTerm(WORDS, limit + 0.1).fits_as_well
+    limit, most = 2.0 * np.log(22_000.0), Settings().certain_evidence
+    assert OtherTerm(WORDS, limit - 0.1, most).fits_as_well
+    assert not OtherTerm(WORDS, limit + 0.1, most).fits_as_well
 
 
 def test_correction_of_the_same_term_is_no_other_one(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -14,7 +14,7 @@ from pyrofit.diagnose.base.model import extended, strength_of
 from pyrofit.diagnose.search import refit
 from pyrofit.diagnose.search.refit import from_best_start, from_elsewhere, look_at
 from pyrofit.diagnose.search.score_test import Screening, strengths_tried
-from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.diagnose.settings import Settings
 from pyrofit.solver.arrays import FloatArray
 
 # The data say next to nothing of k, so that it is wide.
@@ -34,7 +34,7 @@ def ends(monkeypatch: pytest.MonkeyPatch) -> Callable[[Iterable[float]], list[Fl
             model: object,
             x: FloatArray,
             jacobian: FloatArray | None = None,
-            enough: float = SETTINGS.converged_gain,
+            enough: float | None = None,
             known: Fit | None = None,
         ) -> Fit:
             begun.append(x)
@@ -60,7 +60,7 @@ def test_search_from_elsewhere_goes_on_while_it_lowers_but_not_for_ever(
     assert wide >= 2
     for falls, rounds in (
         ([0.0], 1),
-        ([0.5 * SETTINGS.same_valley], 1),
+        ([0.5 * Settings().same_valley], 1),
         ([2.0, 0.0], 2),
         ([2.0] * 9, 3),
     ):
@@ -89,7 +89,7 @@ def test_starts_are_the_most_promising_strength_a_strong_one_and_the_other_side(
 def test_starts_of_an_effect_with_one_sign_hold_the_typical_strength() -> None:
     seen = Screening(
         "in_depth",
-        strengths_tried("in_depth"),
+        strengths_tried("in_depth", Settings().tried_strengths, Settings().near_limit),
         *np.zeros((2, 3, 4)),
         np.array([1.0, 2.0, 3.0, 4.0]),
         2,

@@ -95,5 +95,5 @@ def test_leading_effects_are_fitted_from_other_starts_where_they_misfit(base: Ba
 
 
 def test_ends_of_different_valleys_are_other_starts() -> None:
-    assert apart([10.0, 10.1, 10.3, 40.0, 40.2, 90.0]) == [0, 3, 5]
-    assert apart([10.0]) == [0]
+    assert apart([10.0, 10.1, 10.3, 40.0, 40.2, 90.0], 0.5) == [0, 3, 5]
+    assert apart([10.0], 0.5) == [0]

@@ -10,6 +10,7 @@ from pyrofit.diagnose.base.descent import Fit
 from pyrofit.diagnose.base.model import extended, fraction, model_of, strength_of
 from pyrofit.diagnose.search.refit import look_at
 from pyrofit.diagnose.search.score_test import Screening, confusability, strengths_tried
+from pyrofit.diagnose.settings import Settings
 from pyrofit.effects import known_effects
 from pyrofit.estimate.posterior import UNIFORM
 from pyrofit.estimate.projection import project, projector
@@ -146,7 +147,7 @@ def test_strengths_lie_within_the_limits_on_every_side_of_the_null_that_has_room
     effect: str,
 ) -> None:
     _, quantity = strength_of(effect)
-    found = strengths_tried(effect)
+    found = strengths_tried(effect, Settings().tried_strengths, Settings().near_limit)
     margin = 0.019 * (quantity.upper - quantity.lower)
     assert found.min() > quantity.lower + margin
     assert found.max() < quantity.upper - margin
@@ -159,7 +160,7 @@ def test_strengths_lie_within_the_limits_on_every_side_of_the_null_that_has_room
 @pytest.mark.parametrize("effect", known_effects())
 def test_typical_strength_is_tried_and_weak_ones_come_first(effect: str) -> None:
     _, quantity = strength_of(effect)
-    found = strengths_tried(effect)
+    found = strengths_tried(effect, Settings().tried_strengths, Settings().near_limit)
     span = quantity.upper - quantity.lower
     assert np.abs(found - quantity.typical).min() < 0.021 * span
     distance = np.abs(found - quantity.value)

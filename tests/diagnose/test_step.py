@@ -24,7 +24,7 @@ from pyrofit.diagnose.search.score_test import Screening
 from pyrofit.diagnose.search.step import SearchContext, more, most_promising, promising_or_kin
 from pyrofit.diagnose.search.step_start import step_from as look_first
 from pyrofit.diagnose.search.stepwise import Search, search_effects, settled
-from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.diagnose.settings import Settings
 from pyrofit.solver.arrays import FloatArray
 
 EFFECTS = ("c_T", "heater_ramp", "k_T")
@@ -52,7 +52,7 @@ class Refined:
 
     followed: list[str] = field(default_factory=list)
     polished: list[str] = field(default_factory=list)
-    starts: list[tuple[float, Sequence[int]]] = field(default_factory=list)
+    starts: list[tuple[float | None, Sequence[int]]] = field(default_factory=list)
     """Tolerance and other starts of each fit from elsewhere."""
 
 
@@ -74,7 +74,7 @@ def refined(monkeypatch: pytest.MonkeyPatch) -> Refined:
         seen: Screening,
         end: FittedModel,
         others: Sequence[int],
-        enough: float = SETTINGS.converged_gain,
+        enough: float | None = None,
     ) -> FittedModel:
         noted.starts.append((enough, others))
         return end
@@ -106,7 +106,7 @@ def test_fits_far_above_a_model_at_hand_stay_rough(
     base: FittedModel, refined: Refined, above: float, closer: bool
 ) -> None:
     """One that ends more than `hopeless_chi2` above it is neither refined nor polished."""
-    best = fit_with(base, "k_T").penalised - above * SETTINGS.hopeless_chi2
+    best = fit_with(base, "k_T").penalised - above * Settings().hopeless_chi2
     (trials,) = more([(look_first(base, EFFECTS, CONTEXT), 3)], CONTEXT, best)
     assert {trial.effects[-1] for trial in trials} == set(EFFECTS), "rough fits are kept"
     assert ("k_T" in refined.followed, "k_T" in refined.polished) == (closer, closer)
@@ -120,7 +120,7 @@ def test_fits_that_gain_next_to_nothing_stay_rough(
     share: float,
     closer: bool,
 ) -> None:
-    step_from(base, monkeypatch, "k_T", 1.0, base.fit.chi2 - share * SETTINGS.hopeless_gain)
+    step_from(base, monkeypatch, "k_T", 1.0, base.fit.chi2 - share * Settings().hopeless_gain)
     assert (bool(refined.followed), bool(refined.polished)) == (closer, closer)
 
 
@@ -138,8 +138,8 @@ def test_effect_that_ends_near_its_null_value_is_fitted_from_a_second_start(
 ) -> None:
     """Even where it gains much. The start that was tried then is not tried again."""
     step_from(base, monkeypatch, effect, share, 0.5 * base.fit.chi2)
-    rough, converged = SETTINGS.rough_gain, SETTINGS.converged_gain
-    wanted = [(rough, [1]), (converged, [2])] if again else [(converged, [1, 2])]
+    rough = Settings().rough_gain
+    wanted = [(rough, [1]), (None, [2])] if again else [(None, [1, 2])]
     assert refined.starts == wanted
 
 
@@ -155,9 +155,7 @@ def test_all_effects_of_a_group_are_tried_in_the_place_of_one(base: FittedModel)
         assert [look.effect for look in promising_or_kin(looks, effect)] == wanted
 
 
-def test_exchange_fits_all_that_are_chosen(
-    base: FittedModel, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_exchange_fits_all_that_are_chosen(monkeypatch: pytest.MonkeyPatch) -> None:
     given: list[tuple[Any, int]] = []
 
     def noted(tried: Any, context: Any, best: float) -> list[tuple[()]]:
@@ -167,13 +165,28 @@ def test_exchange_fits_all_that_are_chosen(
     monkeypatch.setattr(stepwise, "more", noted)
     monkeypatch.setattr(stepwise, "promising_or_kin", lambda step, effect: list(step.looks))
     others = ("back_loss", "heater_ramp")
-    monkeypatch.setattr(stepwise, "SETTINGS", replace(SETTINGS, most_exchanged=1))
+    settings = replace(Settings(), most_exchanged=1)
+    base = linear.fit(COLUMNS, planted("k_T"), settings=settings)
     end = fit_with(base, "c_T", "k_T")
     lack = LackOfFit((), 0.0, 1.0, 0.0, 1.0, 0.0, 1.0)
     found = Search((look_first(base, [], CONTEXT),), end, lack, 0.0)
     stepwise.Pass(("c_T", "k_T", *others), 3, CONTEXT)._exchanged(found)
     assert [len(step.looks) for step, _ in given] == [len(others)] * 2
     assert all(most >= len(others) for _, most in given)
+
+
+def test_search_is_steered_by_the_settings_of_its_base() -> None:
+    """One that tries no second effect ends with one, and looks at the stated strengths alone."""
+    none = {"candidates_of_first_branch": 0, "candidates_of_second_branch": 0}
+    settings = replace(Settings(), tried_strengths=(0.5,), **none)
+    for given, count in ((Settings(), 2), (settings, 1)):
+        start = linear.fit(COLUMNS, planted("c_T", "k_T"), settings=given)
+        found = search_effects(start, ("c_T", "k_T"), 3, CONTEXT)
+        assert len(found.end.effects) == count
+    (first, *_) = found.rounds
+    for look in first.looks:
+        half = 0.5 * abs(strength_of(look.effect)[1].typical)
+        assert look.strengths == pytest.approx([half, -half])
 
 
 def test_predictions_begin_with_the_derivatives_at_hand(
@@ -192,7 +205,7 @@ def test_predictions_begin_with_the_derivatives_at_hand(
     (anew,) = model_predictions([trial])
     assert len(begun) == 2
     assert all(wrong is not None and float(np.abs(wrong).max()) < 1e-6 for wrong in begun)
-    assert own.scores == pytest.approx(anew.scores, abs=SETTINGS.converged_gain)
+    assert own.scores == pytest.approx(anew.scores, abs=Settings().converged_gain)
 
 
 def test_predictions_made_before_are_not_made_again(

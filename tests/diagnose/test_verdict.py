@@ -25,7 +25,7 @@ from pyrofit.diagnose.search.step import SearchContext
 from pyrofit.diagnose.search.step_start import step_from as look_first
 from pyrofit.diagnose.search.stepwise import Pass as Pass
 from pyrofit.diagnose.search.stepwise import Search, search_effects
-from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.diagnose.settings import Settings
 from pyrofit.effects import known_effects
 from pyrofit.results.diagnosis_candidates import OfCandidate
 from pyrofit.solver.arrays import FloatArray
@@ -38,7 +38,7 @@ ALL, MLR_25 = (0, 1, 2, 3), (0,)
 @pytest.fixture(autouse=True)
 def no_corrections(monkeypatch: pytest.MonkeyPatch) -> None:
     """Free corrections change the description, which linear models do not have."""
-    monkeypatch.setattr(other_terms, "fitted_corrections", lambda problem, x: [])
+    monkeypatch.setattr(other_terms, "fitted_corrections", lambda trial: [])
 
 
 def planted(seed: int = 1, **typical: float) -> FloatArray:
@@ -384,7 +384,7 @@ def test_superfluous_second_effect_is_no_exchange() -> None:
     found = searched(planted(k_T=0.8), alike("k_T", "heater_ramp"))
     assert found.end.effects == ("k_T",)
     both = fit_with(found.base, "heater_ramp", "c_T")
-    assert both.penalised <= found.end.penalised + SETTINGS.ambiguous_chi2
+    assert both.penalised <= found.end.penalised + Settings().ambiguous_chi2
     step = replace(found.rounds[0], trials=(*found.rounds[0].trials, both))
     assert exchanges(replace(found, rounds=(step,)), "k_T") == []
     alone = [t for t in step.trials if "heater_ramp" not in t.effects or t is both]

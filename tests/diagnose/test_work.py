@@ -9,7 +9,7 @@ from pyrofit.diagnose.base.descent import descend_chi_square
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import model_of
 from pyrofit.diagnose.base.work import within_work
-from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.diagnose.settings import Settings
 
 
 def fitted() -> FittedModel:
@@ -25,7 +25,7 @@ def test_run_with_more_steps_than_the_bound_does_not_finish() -> None:
     problem = trial.model.likelihood.problem
     x = trial.model.likelihood.values(trial.fit.x)
     steps = max(curves[0].steps for curves in problem.simulated(problem.values(x), 1).values())
-    assert accuracy.most_steps == SETTINGS.most_work * steps
+    assert accuracy.most_steps == Settings().most_work * steps
     assert np.array_equal(bounded.model.residuals(trial.fit.x), trial.fit.residuals)
     few = replace(problem, accuracy=accuracy.model_copy(update={"most_steps": 100}))
     assert not few.simulate(x)[0].finished

@@ -16,6 +16,7 @@ from pyrofit.cost import Target, WeightedSum, make_term
 from pyrofit.diagnose.base.descent import descend_chi_square, refreshed
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import Base, Model, model_of, name_of, strength_of
+from pyrofit.diagnose.settings import Settings
 from pyrofit.estimate.correlation import Correlation
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.noise import NoiseModel
@@ -86,6 +87,7 @@ def base(
     y: FloatArray,
     calibrated: tuple[int, ...] = (0, 1, 2, 3),
     known: NormalPrior = NO_PRIOR,
+    settings: Settings = Settings(),
 ) -> Base:
     """Return the base of these columns, measured y, shape (TOTAL,)."""
     usual = base_of(study()).likelihood.problem
@@ -104,7 +106,8 @@ def base(
     )
     # Known exactly: no estimate explains more.
     white = NoiseModel(np.ones(POINTS), Correlation(), criterion=-np.inf)
-    return Base(Likelihood(problem, (white,) * len(CHANNELS), known), calibrated)
+    likelihood = Likelihood(problem, (white,) * len(CHANNELS), known)
+    return Base(likelihood, calibrated, settings=settings)
 
 
 def fitted(model: Model) -> FittedModel:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import pandas as pd
 
 from pyrofit.api import plots
-from pyrofit.api.arguments import count_of, teller_of
+from pyrofit.api.arguments import count_of, teller_of, wrong
 from pyrofit.api.choices import Key, names_given
 from pyrofit.api.measurements import Data, given_keys, read_measured
 from pyrofit.api.studies import Source, read_study
@@ -16,6 +16,7 @@ from pyrofit.config import Study, as_study, calibration_channels, held_out_chann
 from pyrofit.diagnose.diagnosis import DiagnosisWork as Found
 from pyrofit.diagnose.diagnosis import examine
 from pyrofit.diagnose.result.extended_study import extended_keys
+from pyrofit.diagnose.settings import Settings
 from pyrofit.errors import StudyError
 from pyrofit.results.diagnosis_schema import Diagnosis as Record
 from pyrofit.show.diagnosis.evidence import evidence_of
@@ -39,6 +40,7 @@ def diagnose(
     advise: bool = False,
     processes: int = 1,
     tell: Callable[[str], None] | None = None,
+    settings: Settings = Settings(),
 ) -> "Diagnosis":
     """Find where model and measurements disagree, and which effect the model lacks.
 
@@ -57,6 +59,8 @@ def diagnose(
         Processes that share the fits; the result does not depend on their number.
     tell
         Function that receives messages on the progress, such as ``print``.
+    settings
+        Numbers that steer the diagnosis, of `pyrofit.diagnose.settings`.
 
     Raises
     ------
@@ -71,6 +75,8 @@ def diagnose(
         raise StudyError("no effect is named; leave `effects` out to try all that can show")
     count_of("processes", processes)
     tell = teller_of(tell)
+    if not isinstance(settings, Settings):
+        raise wrong("settings", "a record of pyrofit.diagnose.settings.Settings", settings)
     changes = {} if names is None else {"diagnosis.effects": names}
     study = read_study(read_study(study), **changes)
     refuse_programs(study)
@@ -78,7 +84,7 @@ def diagnose(
     keys = [(c.experiment, c.signal) for c in channels]
     series = read_measured(study, keys, data)
     _refuse_mixture(study, keys, given_keys(study, data))
-    found = examine(study, series, tell, processes, advise)
+    found = examine(study, series, tell, processes, advise, settings=settings)
     return Diagnosis(study, found)
 
 

@@ -24,6 +24,7 @@ from pyrofit.diagnose.search.kinetics_first import kinetics_first
 from pyrofit.diagnose.search.progress import Whole
 from pyrofit.diagnose.search.step import SearchContext, in_order
 from pyrofit.diagnose.search.stepwise import Search, search_effects
+from pyrofit.diagnose.settings import Settings
 from pyrofit.estimate.targets import Measurements
 from pyrofit.logs import Tell
 from pyrofit.results.diagnosis_schema import Diagnosis as Record
@@ -57,6 +58,7 @@ def examine(
     advise: bool = True,
     draw: int | None = None,
     journal: Journal | None = None,
+    settings: Settings = Settings(),
 ) -> DiagnosisWork:
     """Find where a study's model and measurements disagree, and which effect the model lacks.
 
@@ -76,13 +78,15 @@ def examine(
         Number of the draw of noise that disturbs the data, see `disturbed`; by default none does.
     journal
         Keeps descents, so that a diagnosis that is broken off goes on with them.
+    settings
+        Numbers that steer the diagnosis.
 
     Raises
     ------
     DataError
         A channel is too short, or no run within the limits finishes.
     """
-    based = partial(_based, measurements, tell, processes, draw, journal)
+    based = partial(_based, measurements, tell, processes, draw, journal, settings)
     found, rng, solver = _searched(study, based, tell, processes, Whole())
     searched = found.end
     verdict = judge(found, rng, processes)
@@ -138,6 +142,7 @@ def _based(
     processes: int,
     draw: int | None,
     journal: Journal | None,
+    settings: Settings,
     study: Study,
 ) -> tuple[Setup, np.random.Generator]:
     """Return the fitted base model, and the generator of the draws that judge it."""
@@ -147,7 +152,7 @@ def _based(
         kept = replace(base, journal=journal)
         return kinetics_first(kept, kinetics, candidate_effects(study), study.seed, processes)
 
-    setup = set_up(study, measurements, processes, draw, narrowed)
+    setup = set_up(study, measurements, processes, draw, narrowed, settings)
     tell(f"base model: chi-square {setup.base.fit.chi2:.1f} of {setup.base.model.points} points")
     resting = resting_at_limits(setup.base)
     if resting:

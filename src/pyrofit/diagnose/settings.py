@@ -1,6 +1,6 @@
 """All numbers that steer a diagnosis, in one record that `diagnosis.json` holds."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from pyrofit.estimate.bounded_least_squares import (
     LIKE_PARABOLA,
@@ -18,7 +18,9 @@ from pyrofit.estimate.posterior import AT_LIMIT
 class Settings:
     """Numbers of the fits, the search, the tests of a claim, and the advice.
 
-    Chi-square counts misfit in units of the noise. x is a fraction of the search range.
+    Chi-square counts misfit in units of the noise. x is a fraction of the search range. Numbers
+    that every fit shares are stated, but cannot be handed in: ``returning_chi2``,
+    ``returning_share`` and ``at_limit``.
     """
 
     # Least squares
@@ -34,15 +36,15 @@ class Settings:
     """A descent ends where the next step promises less of chi-square."""
     ridge: float = RIDGE
     """Added to the curvature, so that a parameter without influence does not move."""
-    returning_chi2: float = NEAR
+    returning_chi2: float = field(default=NEAR, init=False)
     """Largest rise of chi-square above a known fit from which a descent may return to it."""
-    returning_share: float = LIKE_PARABOLA
+    returning_share: float = field(default=LIKE_PARABOLA, init=False)
     """Largest relative difference of this rise from that of the parabola about the fit."""
     rough_gain: float = 1.0
     """A rough descent ends where fresh derivatives promise less of chi-square."""
     same_valley: float = 0.5
     """Two descents that end within this chi-square have found the same minimum."""
-    at_limit: float = AT_LIMIT
+    at_limit: float = field(default=AT_LIMIT, init=False)
     """A parameter rests at a limit if x is within this distance of it."""
 
     # Base model
@@ -212,7 +214,3 @@ class Settings:
     """Share of the lost mass at which a record ends, but for a tenth of its length."""
     design_spacing_s: float = 5.0
     """Spacing of the points of a signal that the study does not measure."""
-
-
-SETTINGS = Settings()
-"""The settings of every diagnosis."""

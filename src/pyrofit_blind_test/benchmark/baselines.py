@@ -19,7 +19,6 @@ from pyrofit.diagnose.base.fitted import FittedModel, followed, up_to_date
 from pyrofit.diagnose.base.model import strength_of
 from pyrofit.diagnose.search.refit import from_best_start, from_elsewhere, look_at, starts
 from pyrofit.diagnose.search.score_test import Screening
-from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects import same_as
 from pyrofit.errors import DataError
 from pyrofit.estimate.posterior import interval
@@ -201,7 +200,7 @@ def forward(setup: Setup) -> Iterator[tuple[FittedModel, float]]:
 
 def _roughly(model: FittedModel, look: Screening) -> FittedModel:
     """Fit an effect in addition, roughly, from several strengths."""
-    rough = SETTINGS.rough_gain
+    rough = model.settings.rough_gain
     best = from_best_start(model, look, rough)
     return from_elsewhere(model, look, best, starts(look)[1:], rough)
 

@@ -8,7 +8,7 @@ from small import clean as clean_curves
 from pyrofit.diagnose.base.disturbed import disturbed, drawn
 from pyrofit.diagnose.base.model import Base
 from pyrofit.diagnose.diagnosis import DiagnosisWork, examine
-from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.diagnose.settings import Settings
 from pyrofit.estimate.correlation import Correlation
 from pyrofit.estimate.noise import NoiseModel
 from pyrofit.solver.arrays import FloatArray
@@ -43,7 +43,7 @@ def test_measured_values_change_by_the_stated_part_of_their_noise() -> None:
     other = disturbed(base, 7)
     changes = [o - v for o, v in zip(values(other), values(base), strict=True)]
     shares = [c / n.sd for c, n in zip(changes, base.likelihood.noise, strict=True)]
-    assert float(np.std(np.concatenate(shares))) == pytest.approx(SETTINGS.disturbance, rel=0.15)
+    assert float(np.std(np.concatenate(shares))) == pytest.approx(Settings().disturbance, rel=0.15)
     assert other.likelihood.noise == base.likelihood.noise
     assert other.calibrated == base.calibrated
 

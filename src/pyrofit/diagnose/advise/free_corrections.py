@@ -15,7 +15,6 @@ from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.corrections.correction import Correction, Shape
 from pyrofit.diagnose.corrections.fit import corrected, with_coefficients
 from pyrofit.diagnose.corrections.forms import fitted_corrections
-from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.estimate.posterior import freedom
 from pyrofit.parallel import parallel_map
 
@@ -65,22 +64,20 @@ def probes(trial: FittedModel, processes: int = 1) -> list[Probe]:
     list of Probe
         The lowest chi-square first, 2 added per coefficient; none without a gasification.
     """
-    likelihood = trial.model.likelihood
-    wanted = fitted_corrections(likelihood.problem, likelihood.values(trial.fit.x))
+    wanted = fitted_corrections(trial)
     fits = parallel_map(lambda i: corrected(trial, wanted[i]), len(wanted), processes)
     found = [_probe(trial, *pair) for pair in zip(wanted, fits, strict=True)]
     noise = min([freedom(trial.fit.jacobian, trial.fit.x), *(probe.chi2 for probe in found)])
-    judged = [replace(probe, absorbed=_absorbed(trial.fit.chi2, probe, noise)) for probe in found]
-    return sorted(
-        judged, key=lambda probe: probe.chi2 + SETTINGS.correction_price * len(probe.coefficients)
-    )
+    judged = [replace(probe, absorbed=_absorbed(trial, probe, noise)) for probe in found]
+    price = trial.settings.correction_price
+    return sorted(judged, key=lambda probe: probe.chi2 + price * len(probe.coefficients))
 
 
-def _absorbed(before: float, probe: Probe, noise: float) -> float:
-    gain = before - probe.chi2
-    if chi_squared.sf(gain, len(probe.coefficients)) > SETTINGS.false_alarm_level:
+def _absorbed(trial: FittedModel, probe: Probe, noise: float) -> float:
+    gain = trial.fit.chi2 - probe.chi2
+    if chi_squared.sf(gain, len(probe.coefficients)) > trial.settings.false_alarm_level:
         return 0.0
-    return min(gain / (before - noise), 1.0)
+    return min(gain / (trial.fit.chi2 - noise), 1.0)
 
 
 def _probe(trial: FittedModel, correction: Correction, fit: Fit) -> Probe:

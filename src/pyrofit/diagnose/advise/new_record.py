@@ -7,7 +7,6 @@ import numpy as np
 
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import Base
-from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.estimate.correlation import Correlation
 from pyrofit.estimate.noise import NoiseModel
 from pyrofit.experiments import kind_of
@@ -53,13 +52,14 @@ def requests_of(
         heated = Request((T - T[0]) / rate, temperature_K=T)
         return {name: replace(heated, output=known_quantities()[name].curve) for name in kinds}
     end = max(_burnt_out(trial, idea) for trial in trials)
+    fewest = trials[0].settings.design_fewest_times
     widths = {
         run.experiment.quantity(name).name: signal.average_s
         for name, signal in run.experiment.signals.items()
     }
     return {
         name: Request(
-            _times(kind.spacing_s, end),
+            _times(kind.spacing_s, end, fewest),
             widths.get(name, 0.0),
             output=known_quantities()[name].curve,
         )
@@ -67,25 +67,24 @@ def requests_of(
     }
 
 
-def _times(spacing: float, end: float) -> FloatArray:
-    """Return times of a record, twenty at least."""
-    spacing = min(spacing, end / SETTINGS.design_fewest_times)
+def _times(spacing: float, end: float, fewest: int) -> FloatArray:
+    """Return times of a record, ``fewest`` at least."""
+    spacing = min(spacing, end / fewest)
     return np.arange(spacing, end, spacing)
 
 
 def _burnt_out(trial: FittedModel, idea: Idea) -> float:
     """Return the time at which a test may end [s]."""
-    time = np.arange(
-        0.0, SETTINGS.design_longest_s + SETTINGS.design_spacing_s, SETTINGS.design_spacing_s
-    )
+    longest, spacing = trial.settings.design_longest_s, trial.settings.design_spacing_s
+    time = np.arange(0.0, longest + spacing, spacing)
     curves = simulated_test(trial, idea, trial.fit.x, {MASS: Request(time)})
     if not curves.status.finished:
-        return SETTINGS.design_longest_s
+        return longest
     lost = curves.signals[MASS][0] - curves.signals[MASS]
     if lost[-1] <= 0.0:
-        return SETTINGS.design_longest_s
-    end = float(time[np.searchsorted(lost, SETTINGS.design_burnt_out * lost[-1])])
-    return min(1.1 * end, SETTINGS.design_longest_s)
+        return longest
+    end = float(time[np.searchsorted(lost, trial.settings.design_burnt_out * lost[-1])])
+    return min(1.1 * end, longest)
 
 
 def kind_of_record(base: Base, quantity: str) -> RecordKind:
@@ -106,7 +105,7 @@ def kind_of_record(base: Base, quantity: str) -> RecordKind:
     if not found:
         # ASSUME: the noise of a quantity that the study does not measure is white.
         sd = known_quantities()[quantity].usual_sd
-        return RecordKind(sd, Correlation(), SETTINGS.design_spacing_s, TIMING_S)
+        return RecordKind(sd, Correlation(), base.settings.design_spacing_s, TIMING_S)
     return sorted(found, key=lambda kind: kind.sd)[len(found) // 2]
 
 

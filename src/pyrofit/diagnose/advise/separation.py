@@ -25,7 +25,6 @@ from pyrofit.diagnose.advise.new_record import (
     simulated_test,
 )
 from pyrofit.diagnose.base.fitted import FittedModel
-from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.estimate.derivatives import derivatives
 from pyrofit.estimate.noise import NoiseModel
 from pyrofit.estimate.posterior import curvature
@@ -144,7 +143,7 @@ def _forecast(trial: FittedModel, idea: Idea, requests: Mapping[str, Request]) -
         return [_stacked(run, requests) if run.status.finished else None for run in runs]
 
     here = _stacked(curves, requests)
-    slopes, found = derivatives(stacked, x, here, 1, step=SETTINGS.difference_step)
+    slopes, found = derivatives(stacked, x, here, 1, step=trial.settings.difference_step)
     if not np.all(found):
         return None
     bend = curvature(trial.fit.jacobian)

@@ -8,7 +8,6 @@ import numpy as np
 from pyrofit.diagnose.base.fit import refitted_all
 from pyrofit.diagnose.base.fitted import FittedModel, finishes
 from pyrofit.diagnose.base.work import bounded
-from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.estimate.projection import project, projector
 from pyrofit.model.accuracy import Accuracy
 
@@ -35,7 +34,7 @@ def tolerated_error(trial: FittedModel) -> float:
     Chi-square of n points of noise has the standard deviation sqrt(2 n).
     """
     scatter = float(np.sqrt(2.0 * trial.model.points))
-    return max(SETTINGS.most_solver_error, SETTINGS.most_solver_share * scatter)
+    return max(trial.settings.most_solver_error, trial.settings.most_solver_share * scatter)
 
 
 def with_accuracy(
@@ -48,7 +47,7 @@ def with_accuracy(
     """
     likelihood = base.model.base.likelihood
     problem = replace(likelihood.problem, accuracy=accuracy)
-    problem = bounded(problem, likelihood.values(base.fit.x))
+    problem = bounded(problem, likelihood.values(base.fit.x), base.settings.most_work)
     other = replace(base.model.base, likelihood=replace(likelihood, problem=problem))
     fits = refitted_all(trials, other, processes)
     return [

@@ -12,7 +12,6 @@ from scipy.stats import chi2 as chi_squared
 
 from pyrofit.diagnose.base.descent import Fit
 from pyrofit.diagnose.base.model import Model
-from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.estimate.projection import project, projector
 from pyrofit.estimate.scan import Stretch, highest, windows_of
 from pyrofit.numerics import linear
@@ -54,7 +53,7 @@ def lack_of_fit(
 
     ``directions`` holds the unit changes by each candidate, shape (points + known, strengths).
     """
-    spanned = projector(fit)
+    settings, spanned = model.base.settings, projector(fit)
 
     def critical_values(blocks: int) -> tuple[float, float]:
         rngs = rng.spawn(blocks)
@@ -62,16 +61,16 @@ def lack_of_fit(
             lambda b: _of_noise(model, spanned, directions, rngs[b]), blocks, processes
         )
         scans, scores = (np.concatenate(of_blocks) for of_blocks in zip(*drawn, strict=True))
-        level = 1.0 - SETTINGS.false_alarm_level
+        level = 1.0 - settings.false_alarm_level
         return float(np.quantile(scans, level)), float(np.quantile(scores, level))
 
     parts = model.by_channel(fit.residuals)
     scan = float(max(highest(part[:, None])[0] for part in parts))
-    critical, score_critical = critical_values(SETTINGS.draw_blocks)
-    if abs(scan - critical) < SETTINGS.close_scan:
-        critical, score_critical = critical_values(SETTINGS.close_draw_blocks)
+    critical, score_critical = critical_values(settings.draw_blocks)
+    if abs(scan - critical) < settings.close_scan:
+        critical, score_critical = critical_values(settings.close_draw_blocks)
     freedom = fit.residuals.size - model.absent - float(np.sum(spanned**2))
-    most = SETTINGS.most_windows
+    most = settings.most_windows
     windows = [w for i, part in enumerate(parts) for w in windows_of(part, critical, i, most)]
     return LackOfFit(
         windows=tuple(windows),
@@ -80,7 +79,7 @@ def lack_of_fit(
         score=max((score(fit.residuals, d) for d in directions), default=0.0),
         score_critical=score_critical,
         chi2=fit.chi2,
-        chi2_critical=float(chi_squared.isf(SETTINGS.false_alarm_level, freedom)),
+        chi2_critical=float(chi_squared.isf(settings.false_alarm_level, freedom)),
     )
 
 
@@ -91,7 +90,7 @@ def _of_noise(
     rng: np.random.Generator,
 ) -> tuple[FloatArray, FloatArray]:
     """Return the largest scan statistic and the largest score of each of some draws of noise."""
-    draws = SETTINGS.draws_per_block
+    draws = model.base.settings.draws_per_block
     noise = project(spanned, rng.standard_normal((spanned.shape[0], draws)))
     scans = [highest(part) for part in model.by_channel(noise)]
     scores = [-(linear.product(noise.T, d)).min(axis=1, initial=0.0) for d in directions]

@@ -5,7 +5,6 @@ from functools import partial
 
 from pyrofit.diagnose.base.journal import name_of_descent
 from pyrofit.diagnose.base.model import Model
-from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.estimate.bounded_least_squares import Fit, minimise
 from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
@@ -17,17 +16,19 @@ def descend_chi_square(
     model: Model,
     x: FloatArray,
     jacobian: FloatArray | None = None,
-    enough: float = SETTINGS.converged_gain,
+    enough: float | None = None,
     fixed: int | None = None,
     known: Fit | None = None,
 ) -> Fit:
     """Minimise chi-square from x, with derivatives to begin with if some are at hand.
 
     Its derivatives are of first order, which takes half of the runs and leads to the same end. It
-    ends where fresh ones promise less than ``enough``, or where it leads to a fit that is
-    ``known``. The parameter at position ``fixed`` keeps its value. Parameters that no run uses, as
-    those of an experiment left out, take their known values.
+    ends where fresh ones promise less than ``enough``, by default as the settings say, or
+    where it leads to a fit that is ``known``. The parameter at position ``fixed`` keeps its value.
+    Parameters that no run uses, as those of an experiment left out, take their known values.
     """
+    settings = model.base.settings
+    enough = settings.converged_gain if enough is None else enough
     start = model.with_idle_known(x, fixed)
 
     def made() -> Fit:
@@ -40,17 +41,17 @@ def descend_chi_square(
             fixed=fixed,
             idle=model.idle,
             known=known,
-            most_steps=SETTINGS.most_steps,
-            most_refused=SETTINGS.most_refused,
-            most_refused_updated=SETTINGS.most_refused_updated,
-            ridge=SETTINGS.ridge,
+            most_steps=settings.most_steps,
+            most_refused=settings.most_refused,
+            most_refused_updated=settings.most_refused_updated,
+            ridge=settings.ridge,
         )
         return replace(end, exact=False)
 
     journal = model.base.journal
     if journal is None:
         return made()
-    asked = (jacobian, enough, fixed, known, model.names, model.idle, SETTINGS)
+    asked = (jacobian, enough, fixed, known, model.names, model.idle, settings)
     name = name_of_descent(model.residuals_all, start, *asked)
     return journal.fit(name, made, partial(_fit_at, model, fixed))
 

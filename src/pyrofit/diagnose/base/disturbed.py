@@ -8,7 +8,6 @@ from pyrofit.cost import WeightedSum, make_term
 from pyrofit.cost.term import Term
 from pyrofit.data.noise import draw_noise
 from pyrofit.diagnose.base.model import Base
-from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.estimate.noise import NoiseModel
 from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
@@ -18,7 +17,7 @@ def disturbed(base: Base, seed: int) -> Base:
     """Return the base with y + s e in the place of the measured values y of all channels.
 
     e is a draw of the noise as it is estimated, correlation included, and s is
-    ``SETTINGS.disturbance``. The variance of the noise rises by the factor 1 + s^2 only, so that
+    the setting ``disturbance``. The variance of the noise rises by the factor 1 + s^2 only, so that
     the error rates of the tests hardly change.
 
     Parameters
@@ -28,16 +27,16 @@ def disturbed(base: Base, seed: int) -> Base:
     seed
         Seed of the draw.
     """
-    rng = np.random.default_rng(seed)
+    rng, share = np.random.default_rng(seed), base.settings.disturbance
     problem = base.likelihood.problem
     pairs = zip(problem.cost.terms, base.likelihood.noise, strict=True)
-    terms = [(weight, _disturbed(term, noise, rng)) for (weight, term), noise in pairs]
+    terms = [(weight, _disturbed(term, noise, share, rng)) for (weight, term), noise in pairs]
     problem = replace(problem, cost=WeightedSum(terms))
     return replace(base, likelihood=replace(base.likelihood, problem=problem))
 
 
-def _disturbed(term: Term, noise: NoiseModel, rng: np.random.Generator) -> Term:
-    value = term.target.value + SETTINGS.disturbance * drawn(noise, rng)
+def _disturbed(term: Term, noise: NoiseModel, share: float, rng: np.random.Generator) -> Term:
+    value = term.target.value + share * drawn(noise, rng)
     return make_term(term.kind, replace(term.target, value=value), **term.options)
 
 

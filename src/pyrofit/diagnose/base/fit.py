@@ -14,7 +14,7 @@ from pyrofit.diagnose.base.long_run import significant_factor
 from pyrofit.diagnose.base.model import Base, Model, model_of
 from pyrofit.diagnose.base.plausible import plausible_ranges
 from pyrofit.diagnose.base.work import within_work
-from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.diagnose.settings import Settings
 from pyrofit.errors import DataError
 from pyrofit.estimate.between_repeats import with_repeats
 from pyrofit.estimate.channel_noise import noise_of
@@ -45,6 +45,7 @@ def set_up(
     processes: int = 1,
     draw: int | None = None,
     narrowed: Callable[[Base], Base] = lambda base: base,
+    settings: Settings = Settings(),
 ) -> Setup:
     """Fit the base model, with the noise of every channel estimated twice.
 
@@ -62,14 +63,15 @@ def set_up(
     fixed = study.fixed_values()
     likelihood = pose_likelihood(study, asked, measurements, fixed, tolerant=True)
     calibrated = tuple(range(len(calibration_channels(study))))
-    base = narrowed(Base(likelihood, calibrated, plausible_ranges(study.diagnosis.plausible)))
+    plausible = plausible_ranges(study.diagnosis.plausible)
+    base = narrowed(Base(likelihood, calibrated, plausible, settings=settings))
     first, starts = fitted_from_starts(base, study.seed, processes)
     first = within_work(first)
     _check_held_out(first)
     base = with_noise_about(first, processes=processes)
     if draw is not None:
         base = disturbed(base, seed_for(study.seed, "stability", draw))
-    others = tuple(starts[: SETTINGS.other_starts])
+    others = tuple(starts[: settings.other_starts])
     fitted = weighed(refitted(first, base))
     return Setup(fitted, candidate_effects(study), others)
 
@@ -96,7 +98,8 @@ def _overstated(trial: FittedModel) -> FloatArray:
     """Return f_k of the parameters of known value, shape (known,); 1 where no point tells of it."""
     index = list(trial.model.base.likelihood.prior.index)
     model, fit = trial.model, trial.fit
-    factors = map(significant_factor, model.by_channel(fit.residuals))
+    level = trial.settings.lasting_level
+    factors = [significant_factor(part, level) for part in model.by_channel(fit.residuals)]
     parts = model.by_channel(fit.jacobian[:, index])
     told = np.array([(J**2).sum(axis=0) for J in parts])
     truly = np.array([own / f for own, f in zip(told, factors, strict=True)])
@@ -127,7 +130,7 @@ def fitted_from_starts(
     starts = start_points(base, seed)
     ahead = [_chi2(residuals) for residuals in model.residuals_all(np.array(starts))]
     starts = [starts[k] for k in np.argsort(ahead, kind="stable")]
-    first = starts[: SETTINGS.base_descents]
+    first = starts[: base.settings.base_descents]
     ends = parallel_map(lambda k: descend_chi_square(model, first[k]), len(first), processes)
     ends = sorted(ends, key=lambda end: end.chi2)
     best = ends[0]
@@ -136,15 +139,15 @@ def fitted_from_starts(
             "diagnosis: no run within the limits of the parameters finishes; check the limits and "
             "the description of the experiments"
         )
-    valleys = apart([end.chi2 for end in ends])
+    valleys = apart([end.chi2 for end in ends], base.settings.same_valley)
     others = [ends[k].x for k in valleys[1:]] + starts
     return polished([FittedModel(model, best)], processes)[0], others
 
 
-def apart(chi2: Sequence[float]) -> list[int]:
-    """Return the positions of ends in different valleys, from their chi-squares in order."""
+def apart(chi2: Sequence[float], least: float) -> list[int]:
+    """Return the positions of ends in other valleys, which rise by more than ``least``."""
     found = [0]
-    found += [k for k in range(1, len(chi2)) if chi2[k] - chi2[k - 1] > SETTINGS.same_valley]
+    found += [k for k in range(1, len(chi2)) if chi2[k] - chi2[k - 1] > least]
     return found
 
 
@@ -152,7 +155,7 @@ def start_points(base: Base, seed: int) -> list[FloatArray]:
     """Return the centre and points spread over the limits, known parameters at their means."""
     size = len(base.likelihood.problem.names)
     spread = 0.05 + 0.9 * qmc.LatinHypercube(size, seed=np.random.default_rng(seed)).random(
-        SETTINGS.base_starts
+        base.settings.base_starts
     )
     points = [np.full(size, 0.5), *spread]
     problem, known = base.likelihood.problem, base.likelihood.prior
@@ -206,7 +209,7 @@ def sharpened(trial: FittedModel, processes: int = 1) -> Base:
     if heaviest <= 1.0:
         return base
     found = refitted(trial, base)
-    for _ in range(SETTINGS.weighings):
+    for _ in range(base.settings.weighings):
         found = weighed(found)
     other = found.model.base
     return other if other.likelihood.prior.heaviest < heaviest else base
@@ -239,7 +242,7 @@ def has_better_noise(other: Base, base: Base) -> bool:
     pairs = ((base.likelihood.noise[i], other.likelihood.noise[i]) for i in base.calibrated)
     gain = sum(b.criterion - o.criterion for b, o in pairs if b is not o)
     lighter = other.likelihood.prior.heaviest / base.likelihood.prior.heaviest
-    return gain >= SETTINGS.clearer_bic or lighter < SETTINGS.lighter_known
+    return gain >= base.settings.clearer_bic or lighter < base.settings.lighter_known
 
 
 def blurred(base: Base) -> bool:

@@ -7,7 +7,7 @@ import numpy as np
 
 from pyrofit.diagnose.base.descent import Fit, descend_chi_square, refreshed
 from pyrofit.diagnose.base.model import Model, model_of, strength_of
-from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.diagnose.settings import Settings
 from pyrofit.estimate.posterior import Posterior, covariance, limit_of
 from pyrofit.numerics import functions
 from pyrofit.parallel import parallel_map
@@ -23,6 +23,11 @@ class FittedModel:
 
     model: Model
     fit: Fit
+
+    @property
+    def settings(self) -> Settings:
+        """The numbers that steer its diagnosis."""
+        return self.model.base.settings
 
     @property
     def effects(self) -> tuple[str, ...]:
@@ -99,16 +104,19 @@ def polished(trials: Sequence[FittedModel], processes: int = 1) -> list[FittedMo
 
     A parameter at a limit, or one of wide uncertainty, may be in the wrong of several valleys.
     """
+    if not trials:
+        return []
+    settings = trials[0].settings
     found = all_up_to_date(trials, processes, order=1)
     lowered = list(range(len(found)))
-    for _ in range(SETTINGS.most_polishing_rounds):
+    for _ in range(settings.most_polishing_rounds):
         begins = [(k, x) for k in lowered for x in _elsewhere(found[k])]
         before = [trial.fit.chi2 for trial in found]
         ends = _ends([(found[k], x) for k, x in begins], processes)
         for (k, _), end in zip(begins, ends, strict=True):
             found[k] = lower_of(found[k], end)
         found = all_up_to_date(found, processes, order=1)
-        lowered = [k for k in lowered if found[k].fit.chi2 < before[k] - SETTINGS.same_valley]
+        lowered = [k for k in lowered if found[k].fit.chi2 < before[k] - settings.same_valley]
     return found
 
 
@@ -118,7 +126,7 @@ def _ends(begins: Sequence[tuple[FittedModel, FloatArray]], processes: int) -> l
 
 def _from(trial: FittedModel, x: FloatArray) -> Fit:
     """Return where a rough descent from x ends, followed to its end if it ends lower."""
-    begin, rough = trial.fit.jacobian, SETTINGS.rough_gain
+    begin, rough = trial.fit.jacobian, trial.settings.rough_gain
     end = descend_chi_square(trial.model, x, begin, enough=rough, known=trial.fit)
     return followed(replace(trial, fit=end)).fit if end.chi2 < trial.fit.chi2 else end
 
@@ -128,16 +136,16 @@ def _elsewhere(trial: FittedModel) -> Iterator[FloatArray]:
 
     A parameter with a known value is not searched elsewhere, as that value tells its place.
     """
-    best = trial.fit
-    wide = np.sqrt(np.diag(covariance(best.jacobian))) > SETTINGS.wide_sd
+    best, settings = trial.fit, trial.settings
+    wide = np.sqrt(np.diag(covariance(best.jacobian))) > settings.wide_sd
     resting = (best.x <= 0.0) | (best.x >= 1.0)
     # Uncertain parameters of held-out experiments change nothing here.
     shown = np.any(best.jacobian[: trial.model.points] != 0.0, axis=0)
     moved = (wide & shown) | resting
     moved[list(trial.model.likelihood.prior.index)] = False
     for i in np.flatnonzero(moved[: len(trial.model.names) - trial.numbers]):
-        for value in SETTINGS.elsewhere:
-            if abs(value - best.x[i]) > SETTINGS.apart:
+        for value in settings.elsewhere:
+            if abs(value - best.x[i]) > settings.apart:
                 x = best.x.copy()
                 x[i] = value
                 yield x
@@ -155,7 +163,8 @@ def finishes(trial: FittedModel) -> bool:
 def misfits_badly(trial: FittedModel) -> bool:
     """Tell whether a signal misfits so much that its misfit was not mistaken for noise."""
     parts = trial.model.by_channel(trial.fit.residuals)
-    return any(float(np.mean(part**2)) > SETTINGS.misfit_chi2_per_point for part in parts)
+    most = trial.settings.misfit_chi2_per_point
+    return any(float(np.mean(part**2)) > most for part in parts)
 
 
 def at_limit(trial: FittedModel, effect: str) -> str:

@@ -50,4 +50,5 @@ def by_misfit(trial: FittedModel) -> Inflation:
 
 def by_significant_misfit(trial: FittedModel) -> Inflation:
     """Return the inflation by misfit that noise hardly reaches."""
-    return Inflation(tuple(map(significant_factor, trial.model.by_channel(trial.fit.residuals))))
+    parts, level = trial.model.by_channel(trial.fit.residuals), trial.settings.lasting_level
+    return Inflation(tuple(significant_factor(part, level) for part in parts))

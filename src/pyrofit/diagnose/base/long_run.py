@@ -12,7 +12,6 @@ doi 10.2307/1913610). The variance of the signal's noise counts as f times as la
 import numpy as np
 from scipy.stats import chi2
 
-from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.estimate.apparatus import LASTING
 from pyrofit.solver.arrays import FloatArray
 
@@ -22,14 +21,14 @@ def long_run_factor(w: FloatArray) -> float:
     return max(1.0, long_run_variance(w), float(np.mean(w**2)))
 
 
-def significant_factor(w: FloatArray) -> float:
-    """Return the factor of a signal, of parts that noise hardly reaches.
+def significant_factor(w: FloatArray, level: float) -> float:
+    """Return the factor of a signal, of parts that noise reaches with a probability below a level.
 
     Noise has chi-square distributions with a degree of freedom a point, or a window.
     """
     found = 1.0
     for factor, freedom in ((float(np.mean(w**2)), w.size), (long_run_variance(w), 1.0 / LASTING)):
-        if factor * freedom > float(chi2.isf(SETTINGS.lasting_level, freedom)):
+        if factor * freedom > float(chi2.isf(level, freedom)):
             found = max(found, factor)
     return found
 

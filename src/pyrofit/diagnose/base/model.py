@@ -8,7 +8,7 @@ import numpy as np
 from pyrofit.cost import WeightedSum
 from pyrofit.diagnose.base.journal import Journal
 from pyrofit.diagnose.base.plausible import Plausible
-from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.diagnose.settings import Settings
 from pyrofit.effects import known_effects
 from pyrofit.effects.apply import own_laboratories, with_effects
 from pyrofit.effects.base import Chosen, Quantity
@@ -38,6 +38,8 @@ class Base:
         Effects that TGA, DSC and MCC ask for without the slab.
     journal
         Keeps descents for the case that the diagnosis is broken off.
+    settings
+        Numbers that steer the diagnosis.
     """
 
     likelihood: Likelihood
@@ -45,6 +47,7 @@ class Base:
     plausible: Mapping[str, Plausible] = field(default_factory=dict)
     of_small_samples: tuple[str, ...] = ()
     journal: Journal | None = None
+    settings: Settings = Settings()
 
     @property
     def held_out(self) -> tuple[int, ...]:
@@ -123,7 +126,7 @@ class Model:
             slope = plausible.slopes(self._strength(x[None], i))[0]
             rows[k, i] = slope * self.likelihood.problem.span[i]
         own = residuals[: residuals.size - len(rows)]
-        slopes = self.likelihood.jacobian(x, own, order, SETTINGS.difference_step)
+        slopes = self.likelihood.jacobian(x, own, order, self.base.settings.difference_step)
         return np.vstack([slopes, rows])
 
     @property

@@ -4,7 +4,6 @@ from dataclasses import replace
 
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import model_of
-from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.estimate.problem import Problem
 from pyrofit.solver.arrays import FloatArray
 
@@ -16,19 +15,19 @@ def within_work(trial: FittedModel) -> FittedModel:
     """
     base = trial.model.base
     likelihood = base.likelihood
-    problem = bounded(likelihood.problem, likelihood.values(trial.fit.x))
+    problem = bounded(likelihood.problem, likelihood.values(trial.fit.x), base.settings.most_work)
     base = replace(base, likelihood=replace(likelihood, problem=problem))
     return replace(trial, model=model_of(base, trial.model.effects, trial.model.channels))
 
 
-def bounded(problem: Problem, x: FloatArray) -> Problem:
-    """Return a problem whose runs get at most a multiple of the cells and steps of that at x [SI].
+def bounded(problem: Problem, x: FloatArray, most: int) -> Problem:
+    """Return a problem whose runs get at most ``most`` times the cells and steps of that at x [SI].
 
     A run that needs more cells gets fewer; one that needs more steps does not finish.
     """
     simulated = problem.simulated(problem.values(x), 1)
-    cells = SETTINGS.most_work * max(curves[0].cells for curves in simulated.values())
-    steps = SETTINGS.most_work * max(curves[0].steps for curves in simulated.values())
+    cells = most * max(curves[0].cells for curves in simulated.values())
+    steps = most * max(curves[0].steps for curves in simulated.values())
     accuracy = problem.accuracy
     least = {
         "most_cells": min(max(cells, 50), accuracy.most_cells),

@@ -8,7 +8,6 @@ from pyrofit.diagnose.base.descent import Fit, descend_chi_square
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import Model
 from pyrofit.diagnose.corrections.correction import Correction
-from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.prior import NormalPrior
 from pyrofit.solver.arrays import FloatArray
@@ -24,13 +23,14 @@ def corrected(trial: FittedModel, correction: Correction, x: FloatArray | None =
 def with_coefficients(model: Model, correction: Correction) -> Model:
     """Return the model with a correction; its coefficients follow all other parameters."""
     problem, known = correction.problem, model.likelihood.prior
+    widest = model.base.settings.widest_correction
     sd = np.array(list(correction.sd.values()))
     count = len(problem.names)
     wider = replace(
         problem,
         names=(*problem.names, *correction.sd),
-        lower=np.append(problem.lower, -SETTINGS.widest_correction * sd),
-        upper=np.append(problem.upper, SETTINGS.widest_correction * sd),
+        lower=np.append(problem.lower, -widest * sd),
+        upper=np.append(problem.upper, widest * sd),
     )
     prior = NormalPrior(
         index=(*known.index, *range(count, count + sd.size)),

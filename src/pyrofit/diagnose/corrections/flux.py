@@ -12,16 +12,18 @@ from pyrofit.diagnose.corrections.correction import (
     times_of_record,
 )
 from pyrofit.diagnose.corrections.flux_tables import described_at, merged, table_of
-from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.estimate.problem import Problem
 from pyrofit.model.time_table import TimeTable
 
 
-def flux(problem: Problem) -> Correction:
-    """Make q(t) = q_0(t) (1 + c(t)), c linear between knots that lie closest at the start."""
+def flux(problem: Problem, count: int, sd: float) -> Correction:
+    """Make q(t) = q_0(t) (1 + c(t)), c linear between knots that lie closest at the start.
+
+    c has ``count`` coefficients, with the prior standard deviation ``sd`` each.
+    """
     end = max(float(times[-1]) for times in times_of_record(problem).values())
-    knots = end * np.linspace(0.0, 1.0, SETTINGS.correction_coefficients) ** 2
-    names = coefficient_names("flux", SETTINGS.correction_coefficients)
+    knots = end * np.linspace(0.0, 1.0, count) ** 2
+    names = coefficient_names("flux", count)
     described = {name: table_of(slab.front.flux_W_m2) for name, slab in slabs_of(problem).items()}
     time = {name: merged(table.time_s, knots) for name, table in described.items()}
     own = {
@@ -46,7 +48,7 @@ def flux(problem: Problem) -> Correction:
         probe="flux",
         what="a factor on the external flux that varies over time",
         unit="-",
-        sd=dict.fromkeys(names, SETTINGS.correction_flux_sd),
+        sd=dict.fromkeys(names, sd),
         problem=derived(problem, {n: {"front": own} for n, own in fronts.items()}, derive),
         shape=shape,
     )

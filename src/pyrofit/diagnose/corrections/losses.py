@@ -11,7 +11,6 @@ from pyrofit.diagnose.corrections.correction import (
     slabs_of,
 )
 from pyrofit.diagnose.corrections.flux_tables import named_numbers, table_of
-from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects.base import changed, has_open_back
 from pyrofit.estimate.problem import Problem
 from pyrofit.model.base import value_of
@@ -24,8 +23,11 @@ LOSS_SD = {"gas_temperature_K": 30.0, "h_change_W_m2K": 6.0, "h_cube_root_W_m2K4
 """Prior standard deviations for the loss of a side, SI units, by key of the description."""
 
 
-def loss(problem: Problem, T: tuple[float, float], side: str) -> Correction:
-    """Make q = (h_0 + c_1)(T_s - T_g) + (C_0 + c_2)(T_s - T_g)^(4/3), with T_g = T_gas + c_0."""
+def loss(problem: Problem, T: FloatArray, side: str) -> Correction:
+    """Make q = (h_0 + c_1)(T_s - T_g) + (C_0 + c_2)(T_s - T_g)^(4/3), with T_g = T_gas + c_0.
+
+    The correction is drawn at the temperatures T of the surface.
+    """
     names = dict(zip(LOSS_SD, coefficient_names(f"{side}_heat_loss", len(LOSS_SD)), strict=True))
     slabs = {n: s for n, s in slabs_of(problem).items() if side == "front" or has_open_back(s)}
     described = {name: getattr(slab, side) for name, slab in slabs.items()}
@@ -46,10 +48,9 @@ def loss(problem: Problem, T: tuple[float, float], side: str) -> Correction:
 
     def shape(values: Values) -> Shape:
         name, face = next(iter(described.items()))
-        at = np.linspace(*T, SETTINGS.correction_points_drawn)
-        before = _convection(face, values, at)
-        after = _convection(changed(face, **own[name]), {**values, **derive(values)}, at)
-        return list(zip(at.tolist(), (after - before).tolist(), strict=True))
+        before = _convection(face, values, T)
+        after = _convection(changed(face, **own[name]), {**values, **derive(values)}, T)
+        return list(zip(T.tolist(), (after - before).tolist(), strict=True))
 
     return Correction(
         probe=f"{side}_heat_loss",

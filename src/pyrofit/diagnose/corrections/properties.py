@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 
 from pyrofit.diagnose.corrections.correction import Correction, Shape, Values, coefficient_names
-from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects.substance import properties_changed, shares
 from pyrofit.estimate.problem import Problem
 from pyrofit.numerics import functions, linear
+from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.lower_property import property_table
 
 PROPERTIES = {
@@ -22,11 +22,17 @@ PROPERTIES = {
 """Key of the description, unit and words, by probe."""
 
 
-def of_property(problem: Problem, values: Values, T: tuple[float, float], probe: str) -> Correction:
-    """Make p(T) = p_0(T) + sum_k c_k exp(-((T - T_k)/w)^2/2)/(sqrt(2 pi) w), of all components."""
+def of_property(
+    problem: Problem, values: Values, T: FloatArray, probe: str, count: int, sd: float
+) -> Correction:
+    """Make p(T) = p_0(T) + sum_k c_k exp(-((T - T_k)/w)^2/2)/(sqrt(2 pi) w), of all components.
+
+    It has ``count`` coefficients. ``sd`` is the prior standard deviation of the change, relative to
+    the median of p_0. The correction is drawn at the temperatures T.
+    """
     key, unit, what = PROPERTIES[probe]
-    names = coefficient_names(probe, SETTINGS.correction_coefficients)
-    centres = np.linspace(*T, SETTINGS.correction_coefficients)
+    names = coefficient_names(probe, count)
+    centres = np.linspace(T[0], T[-1], count)
     width = 0.5 * float(centres[1] - centres[0])
     area = width * float(np.sqrt(2.0 * np.pi))
     peak = properties_changed(key, peak_area="c", peak_temperature_K="T", peak_width_K="w")
@@ -38,16 +44,15 @@ def of_property(problem: Problem, values: Values, T: tuple[float, float], probe:
     size = float(np.median(property_table(getattr(main, key), values)))
 
     def shape(values: Values) -> Shape:
-        at = np.linspace(*T, SETTINGS.correction_points_drawn)
-        peaks = functions.exp(-0.5 * (np.subtract.outer(at, centres) / width) ** 2)
+        peaks = functions.exp(-0.5 * (np.subtract.outer(T, centres) / width) ** 2)
         change = linear.product(peaks, [values[name] / area for name in names])
-        return list(zip(at.tolist(), change.tolist(), strict=True))
+        return list(zip(T.tolist(), change.tolist(), strict=True))
 
     return Correction(
         probe=probe,
         what=what,
         unit=unit,
-        sd=dict.fromkeys(names, SETTINGS.correction_property_sd * size * area),
+        sd=dict.fromkeys(names, sd * size * area),
         problem=replace(problem, material=material),
         shape=shape,
     )

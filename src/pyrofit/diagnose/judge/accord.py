@@ -17,7 +17,6 @@ from pyrofit.diagnose.base.descent import descend_chi_square
 from pyrofit.diagnose.base.fit import refitted
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import model_of
-from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.estimate.prior import NormalPrior
 from pyrofit.numerics import functions
 from pyrofit.parallel import parallel_map
@@ -45,8 +44,8 @@ def known_beside(own: FittedModel, without: FittedModel) -> dict[str, tuple[floa
 def moved_away(own: FittedModel, without: FittedModel) -> list[str]:
     """Return the parameters that an effect moves away from their known values."""
     after, before = np.abs(deviations(own)), np.abs(deviations(without))
-    names = own.model.names
-    far = (after > SETTINGS.far_from_known) & (after > before + SETTINGS.moved_from_known)
+    names, settings = own.model.names, own.settings
+    far = (after > settings.far_from_known) & (after > before + settings.moved_from_known)
     index = own.model.likelihood.prior.index
     return [names[i] for i, is_far in zip(index, far, strict=True) if is_far]
 
@@ -110,7 +109,7 @@ def wrong_instead(
 
 def _strained(trial: FittedModel) -> list[str]:
     """Return the parameters that a fit moves far away from their known values."""
-    far = np.abs(deviations(trial)) > SETTINGS.far_from_known
+    far = np.abs(deviations(trial)) > trial.settings.far_from_known
     index = trial.model.likelihood.prior.index
     return [trial.model.names[i] for i, is_far in zip(index, far, strict=True) if is_far]
 
@@ -121,7 +120,7 @@ def _without_known(trial: FittedModel, names: Sequence[str]) -> FittedModel:
     problem = base.likelihood.problem
     freed = np.array([problem.names[i] in names for i in prior.index])
     index = np.array(prior.index)
-    reach = SETTINGS.widest_known * prior.sd * prior.weight
+    reach = trial.settings.widest_known * prior.sd * prior.weight
     # A property stays above zero.
     reach = np.where(prior.mean > 0.0, np.minimum(reach, 0.9 * prior.mean), reach)
     lower, upper = problem.lower.copy(), problem.upper.copy()
@@ -147,5 +146,5 @@ def _held(trial: FittedModel) -> FittedModel:
     """Return a model fitted with its known values held."""
     base = trial.model.base
     prior = base.likelihood.prior
-    prior = prior.over(SETTINGS.held_known / prior.weight)
+    prior = prior.over(trial.settings.held_known / prior.weight)
     return refitted(trial, replace(base, likelihood=replace(base.likelihood, prior=prior)))

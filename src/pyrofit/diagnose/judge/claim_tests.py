@@ -18,7 +18,7 @@ from pyrofit.diagnose.base.inflation import Inflation
 from pyrofit.diagnose.base.long_run import long_run_factor
 from pyrofit.diagnose.base.prediction import HELD_OUT, Predictions
 from pyrofit.diagnose.judge.power import expected_gain
-from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.diagnose.settings import Settings
 from pyrofit.estimate.projection import project, projector
 from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
@@ -47,17 +47,19 @@ class Trust:
     """Parameters whose known values, if wrong, would explain as much as the effect."""
     known: dict[str, tuple[float, float]] = field(default_factory=dict)
     """Known parameters less known values without and with the effect, in standard deviations."""
+    settings: Settings = Settings()
+    """The numbers that steer the diagnosis."""
 
     @property
     def telling(self) -> dict[str, float]:
         """Gains of the predictions that can tell the models apart."""
-        least = SETTINGS.informative_gain
+        least = self.settings.informative_gain
         return {n: gain for n, gain in self.gains.items() if self.powers.get(n, least) >= least}
 
     @property
     def informative(self) -> bool:
         """Whether some prediction distinguishes the models."""
-        return any(abs(gain) >= SETTINGS.informative_gain for gain in self.telling.values())
+        return any(abs(gain) >= self.settings.informative_gain for gain in self.telling.values())
 
     @property
     def predicts(self) -> bool:
@@ -68,19 +70,20 @@ class Trust:
         """
         if self.outvoted:
             return True
-        return not self.worse and sum(self.telling.values()) >= SETTINGS.informative_gain
+        return not self.worse and sum(self.telling.values()) >= self.settings.informative_gain
 
     @property
     def worse(self) -> list[str]:
         """Predictions that get clearly worse, of those that can decide alone."""
-        least = SETTINGS.deciding_gain
+        least = self.settings.deciding_gain
         deciding = [n for n in self.gains if self.powers.get(n, least) >= least]
-        return [n for n in deciding if self.gains[n] <= -SETTINGS.informative_gain]
+        return [n for n in deciding if self.gains[n] <= -self.settings.informative_gain]
 
     @property
     def outvoted(self) -> bool:
         """Whether one held-out experiment alone gets worse, and several predictions improve."""
-        better = [n for n, gain in self.telling.items() if gain >= SETTINGS.informative_gain]
+        least = self.settings.informative_gain
+        better = [name for name, gain in self.telling.items() if gain >= least]
         return len(self.worse) == 1 and self.worse[0] in self.held_out and len(better) > 1
 
     @property
@@ -91,7 +94,8 @@ class Trust:
         """
         out = self.worse if self.outvoted else []
         gains = [gain for name, gain in self.held_out.items() if name not in out]
-        return self.predicts and (not self.held_out or sum(gains) >= SETTINGS.informative_gain)
+        least = self.settings.informative_gain
+        return self.predicts and (not self.held_out or sum(gains) >= least)
 
     @property
     def held_out(self) -> dict[str, float]:
@@ -198,4 +202,6 @@ def trust(
         powers[name] = expected_gain(own, without, name) / factor
     disagree, far = disagreement(trial, effect, inflation), implausible(trial, effect)
     limit = at_limit(trial, effect)
-    return Trust(limit, disagree, gains, explained, powers, tuple(conflict), far)
+    return Trust(
+        limit, disagree, gains, explained, powers, tuple(conflict), far, settings=trial.settings
+    )

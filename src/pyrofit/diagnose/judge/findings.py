@@ -7,7 +7,6 @@ from pyrofit.diagnose.base.fitted import FittedModel, Key
 from pyrofit.diagnose.judge.claim_tests import Trust
 from pyrofit.diagnose.judge.other_terms import OtherTerm
 from pyrofit.diagnose.search.stepwise import Search
-from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects import known_effects
 
 ORDER = ("apparatus", "environment", "material")
@@ -108,7 +107,7 @@ class Finding:
     @property
     def weighs(self) -> bool:
         """Whether nearly all models that fit have an effect of the group."""
-        return self.weight >= SETTINGS.claimed_weight
+        return self.weight >= self.judged[0].trial.settings.claimed_weight
 
     @property
     def implausible(self) -> float:
@@ -132,7 +131,8 @@ class Finding:
         An effect that stands for another one explains a part of each experiment, with a strength
         of its own in each. The tests of the residuals tell this only where nothing else is left.
         """
-        return self.kept[0].trust.disagree < SETTINGS.firm_agreement
+        first = self.kept[0]
+        return first.trust.disagree < first.trial.settings.firm_agreement
 
     @property
     def outvoted(self) -> bool:

@@ -79,7 +79,7 @@ def ridges(trial: FittedModel, formed: Mapping[str, FittedModel]) -> list[Ridge]
 
     ``formed`` are the models of `with_all_forms`.
     """
-    found = []
+    found, settings = [], trial.settings
     for effect in trial.effects:
         model = formed.get(effect, trial)
         free = model.model.effects[effect]
@@ -87,7 +87,8 @@ def ridges(trial: FittedModel, formed: Mapping[str, FittedModel]) -> list[Ridge]
         at = [model.model.names.index(name_of(effect, parameter)) for parameter in free]
         span = (problem.upper - problem.lower)[at]
         covariance = model.posterior.covariance()[np.ix_(at, at)] * np.outer(span, span)
-        found.append(ridge_of(effect, free, values_of(model)[0][at], covariance))
+        values, least = values_of(model)[0][at], (settings.open_sd, settings.ridge_gain)
+        found.append(ridge_of(effect, free, values, covariance, *least))
     return [ridge for ridge in found if ridge is not None]
 
 

@@ -21,7 +21,6 @@ from pyrofit.diagnose.base.inflation import Inflation
 from pyrofit.diagnose.corrections.correction import Correction
 from pyrofit.diagnose.corrections.fit import corrected, with_coefficients
 from pyrofit.diagnose.corrections.forms import SAME_TERM, fitted_corrections
-from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects import known_effects
 from pyrofit.estimate.posterior import UNIFORM, curvature
 from pyrofit.numerics import linear
@@ -38,15 +37,18 @@ class OtherTerm:
         The correction in words.
     above
         Its -2 ln Z less that of the model with the effect.
+    most
+        Value of ``above`` up to which it explains the data nearly as well.
     """
 
     words: str
     above: float
+    most: float
 
     @property
     def fits_as_well(self) -> bool:
         """Whether the data do not exclude it against the effect with high odds."""
-        return self.above <= SETTINGS.certain_evidence
+        return self.above <= self.most
 
 
 def other_terms(
@@ -78,15 +80,14 @@ def other_terms(
     )
     found: list[list[OtherTerm]] = [[] for _ in without]
     for (k, correction), size in zip(tasks, above, strict=True):
-        found[k].append(OtherTerm(correction.what, size))
+        found[k].append(OtherTerm(correction.what, size, end.settings.certain_evidence))
     return found
 
 
 def _rivals(reduced: FittedModel, effect: str) -> list[Correction]:
     """Return the corrections of other terms than the one that an effect changes."""
     group = known_effects()[effect].group
-    likelihood = reduced.model.likelihood
-    found = fitted_corrections(likelihood.problem, likelihood.values(reduced.fit.x))
+    found = fitted_corrections(reduced)
     return [correction for correction in found if group not in SAME_TERM[correction.probe]]
 
 
@@ -102,7 +103,8 @@ def _above(
     kept = [end.model.names.index(name) for name in reduced.model.names]
     starts = (reduced.fit.x, end.fit.x[kept])
     fit = min((corrected(reduced, correction, x) for x in starts), key=lambda one: one.chi2)
-    narrow = (2.0 * SETTINGS.widest_correction) ** 2  # inverse variance in x of a coefficient
+    # Inverse variance in x of a coefficient.
+    narrow = (2.0 * end.settings.widest_correction) ** 2
     others = reduced.numbers * math.log(UNIFORM) + len(correction.sd) * math.log(UNIFORM + narrow)
     own = end.numbers * math.log(UNIFORM)
     corrected_model = FittedModel(model, refreshed(model, fit))

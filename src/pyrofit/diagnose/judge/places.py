@@ -17,7 +17,6 @@ from pyrofit.diagnose.judge.weights import group_weights
 from pyrofit.diagnose.search.restart import refitted_without
 from pyrofit.diagnose.search.step import SearchContext, SearchStep
 from pyrofit.diagnose.search.stepwise import Search, replacing
-from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects import known_effects
 from pyrofit.parallel import parallel_map
 
@@ -102,7 +101,7 @@ def findings_of(
     errors = wrong_instead(
         [(trial, without[k]) for k, trial in pairs],
         inflation.penalised,
-        SETTINGS.ambiguous_chi2,
+        found.end.settings.ambiguous_chi2,
         processes,
     )
     conflict = {(k, _key(trial)): names for (k, trial), names in zip(pairs, against, strict=True)}
@@ -146,12 +145,13 @@ def alternatives(found: Search, effect: str) -> list[tuple[str, FittedModel]]:
 
     Of each effect the best form; the end of the search itself first.
     """
-    best = {effect: found.end}
+    best, settings = {effect: found.end}, found.end.settings
     penalised = inflation_by_misfit(found).penalised
+    near = penalised(found.end) + settings.ambiguous_chi2
     for name, trial in sorted(replacing(found, effect), key=lambda one: penalised(one[1])):
-        if penalised(trial) <= penalised(found.end) + SETTINGS.ambiguous_chi2:
+        if penalised(trial) <= near:
             best.setdefault(name, trial)
-    return [(name, up_to_date(trial)) for name, trial in list(best.items())[: SETTINGS.most_judged]]
+    return [(name, up_to_date(trial)) for name, trial in list(best.items())[: settings.most_judged]]
 
 
 def exchanges(found: Search, effect: str) -> list[Exchange]:
@@ -161,7 +161,7 @@ def exchanges(found: Search, effect: str) -> list[Exchange]:
     must be needed.
     """
     end, penalised = found.end, inflation_by_misfit(found).penalised
-    near = penalised(end) + SETTINGS.ambiguous_chi2
+    near = penalised(end) + end.settings.ambiguous_chi2
     best: dict[tuple[str, ...], Exchange] = {}
     for trial in sorted(found.trials, key=penalised):
         replaced = tuple(name for name in end.effects if name not in trial.effects)
@@ -192,7 +192,7 @@ def words_against(gain: float, spare: float, about: Trust) -> str:
         return f"{about.limit} is at a limit"
     if about.conflict:
         return f"it gains only by moving {', '.join(about.conflict)} away from the known value"
-    if about.disagree < SETTINGS.agreement_level:
+    if about.disagree < about.settings.agreement_level:
         return f"the experiments ask for different strengths (p = {about.disagree:.1g})"
     if about.informative and not about.predicts:
         gains = about.telling
@@ -200,6 +200,6 @@ def words_against(gain: float, spare: float, about: Trust) -> str:
         return (
             f"predictions do not improve: log score {gains[worst]:+.1f} for {worst}, "
             f"{sum(gains.values()):+.1f} in all; "
-            f"{SETTINGS.informative_gain:g} at least is asked for"
+            f"{about.settings.informative_gain:g} at least is asked for"
         )
     return ""

@@ -13,7 +13,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
 
@@ -41,12 +40,17 @@ class Ridge:
 
 
 def ridge_of(
-    effect: str, names: Sequence[str], values: FloatArray, covariance: FloatArray
+    effect: str,
+    names: Sequence[str],
+    values: FloatArray,
+    covariance: FloatArray,
+    open_sd: float,
+    least_gain: float,
 ) -> Ridge | None:
     """Return the best known product of an effect's parameters, None where each one is known.
 
-    Only positive parameters with a relative standard deviation of `SETTINGS.open_sd` or more take
-    part. The product must be known `SETTINGS.ridge_gain` times better than the first of them.
+    Only positive parameters with a relative standard deviation of ``open_sd`` or more take part.
+    The product must be known ``least_gain`` times better than the first of them.
 
     Parameters
     ----------
@@ -56,7 +60,7 @@ def ridge_of(
         Their values and covariance, one unit each.
     """
     sd = np.sqrt(np.diag(covariance))
-    left_open = [i for i, p in enumerate(values) if p > 0.0 and sd[i] >= SETTINGS.open_sd * p]
+    left_open = [i for i, p in enumerate(values) if p > 0.0 and sd[i] >= open_sd * p]
     if len(left_open) < 2:
         return None
     p = values[left_open]
@@ -66,7 +70,7 @@ def ridge_of(
     a = np.round(a / a[unit], 1)
     product = math.sqrt(max(linear.dot(a, linear.product(R, a)), 0.0))
     alone = np.sqrt(np.diag(R))
-    if np.count_nonzero(a) < 2 or SETTINGS.ridge_gain * product > alone[unit]:
+    if np.count_nonzero(a) < 2 or least_gain * product > alone[unit]:
         return None
     parts = [(names[i], float(b), float(s)) for i, b, s in zip(left_open, a, alone, strict=True)]
     return Ridge(

@@ -14,7 +14,6 @@ from pyrofit.diagnose.judge.places import end_without_superfluous, findings_of, 
 from pyrofit.diagnose.search.refit import look_at
 from pyrofit.diagnose.search.step import SearchContext
 from pyrofit.diagnose.search.stepwise import Search
-from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects import known_effects
 from pyrofit.model.slab import SlabExperiment
 
@@ -191,7 +190,8 @@ def _suspects(found: Search, processes: int) -> tuple[Suspect, ...]:
     names = [look.effect for look in found.rounds[0].looks if look.effect not in found.end.effects]
     looks = look_at(found.end, names, processes)
     gains = [Suspect(look.effect, found.end.fit.chi2 - float(look.ahead.min())) for look in looks]
-    leading = sorted(gains, key=lambda suspect: -suspect.gain)[: SETTINGS.most_suspects]
+    most = found.end.settings.most_suspects
+    leading = sorted(gains, key=lambda suspect: -suspect.gain)[:most]
     return tuple(suspect for suspect in leading if suspect.gain > found.spare)
 
 
@@ -247,9 +247,10 @@ def _infirm(finding: Finding) -> Iterator[str]:
             f"without it, the model fits as well without {effect.title}"
         )
     if not finding.weighs:
+        least = finding.judged[0].trial.settings.claimed_weight
         yield (
             f"{100.0 * finding.weight:.0f} % of the weight of all models have an effect of the "
-            f"group {effect.group}; a claim needs {100.0 * SETTINGS.claimed_weight:g} %"
+            f"group {effect.group}; a claim needs {100.0 * least:g} %"
         )
 
 
@@ -297,7 +298,7 @@ def _unconfirmed(judged: Judged) -> str:
     gain = sum(judged.trust.held_out.values())
     return (
         f"with {_title(judged.effect)}, the log score of held-out signals gains {gain:+.1f} only; "
-        f"a confirmation needs {SETTINGS.informative_gain:g}"
+        f"a confirmation needs {judged.trial.settings.informative_gain:g}"
     )
 
 

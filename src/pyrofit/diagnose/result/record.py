@@ -24,7 +24,7 @@ from pyrofit.diagnose.result.candidates import candidate_records, confusability_
 from pyrofit.diagnose.result.phases import describe_windows
 from pyrofit.diagnose.result.verdict_text import form_words, sentences
 from pyrofit.diagnose.search.stepwise import Search
-from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.diagnose.settings import Settings
 from pyrofit.effects import known_effects
 from pyrofit.errors import DataError
 from pyrofit.estimate.posterior import limit_of
@@ -79,7 +79,7 @@ def content(
     misfits = _before_and_after(found, final)
     return Diagnosis(
         schema=SCHEMA,
-        settings=_settings(),
+        settings=_settings(found.base.settings),
         study=study.name,
         verdict=_verdict(verdict),
         noise=_noise(found, misfits),
@@ -88,7 +88,7 @@ def content(
         screen=screened(found),
         confusability=confusability_of(found),
         needed=found.spare + float(functions.log(found.base.model.points)),
-        ambiguity=SETTINGS.ambiguous_chi2,
+        ambiguity=found.base.settings.ambiguous_chi2,
         not_tried=_not_tried(study),
         candidates=candidate_records(found, verdict, final, processes),
         extended=OfExtended(parameters=_extended(study, found, final)),
@@ -126,10 +126,10 @@ def advised(
     return found.model_copy(update=parts)
 
 
-def _settings() -> dict[str, int | float | list[float]]:
+def _settings(settings: Settings) -> dict[str, int | float | list[float]]:
     return {
         name: list(value) if isinstance(value, tuple) else value
-        for name, value in asdict(SETTINGS).items()
+        for name, value in asdict(settings).items()
     }
 
 
@@ -290,7 +290,7 @@ def _gap(found: Search, verdict: Verdict, misfits: Misfits) -> list[OfGap]:
         if channel in base.calibrated or not powers:
             return None
         name = prediction_of(found.base, channel)
-        return any(of.get(name, 0.0) >= SETTINGS.informative_gain for of in powers)
+        return any(of.get(name, 0.0) >= base.settings.informative_gain for of in powers)
 
     rows = []
     for i, (before, after) in enumerate(misfits):

@@ -6,7 +6,6 @@ from pyrofit.diagnose.base.fitted import FittedModel, strengths_at_limit
 from pyrofit.diagnose.base.inflation import by_significant_misfit
 from pyrofit.diagnose.base.prediction import model_predictions, slab_experiments
 from pyrofit.diagnose.search.step import SearchContext, SearchStep, in_order
-from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects import known_effects
 
 Claim = tuple[FittedModel, FittedModel]
@@ -25,11 +24,12 @@ def branches(
     claims = _claims(steps, spare)
     if len(claims) > 1 and slab_experiments(claims[0][0]):
         claims = _by_prediction(claims, context)
-    found = [trial for trial, _ in claims][: SETTINGS.branches]
+    settings = steps[0].start.settings
+    found = [trial for trial, _ in claims][: settings.branches]
     if not found:
         return []
     lowest = min(trial.fit.chi2 for trial in found)
-    return [trial for trial in found if trial.fit.chi2 <= SETTINGS.far_chi2_ratio * lowest]
+    return [trial for trial in found if trial.fit.chi2 <= settings.far_chi2_ratio * lowest]
 
 
 def _claims(steps: Sequence[SearchStep], spare: float) -> list[Claim]:
@@ -48,7 +48,8 @@ def _claims(steps: Sequence[SearchStep], spare: float) -> list[Claim]:
     best: dict[frozenset[str], FittedModel] = {}
     for trial in in_order([trial for trial, _ in inside or found]):
         best.setdefault(_groups(trial), trial)
-    return [(trial, start[id(trial)]) for trial in list(best.values())[: SETTINGS.most_predicted]]
+    most = steps[0].start.settings.most_predicted
+    return [(trial, start[id(trial)]) for trial in list(best.values())[:most]]
 
 
 def _gain(start: FittedModel, trial: FittedModel) -> float:
@@ -58,7 +59,7 @@ def _gain(start: FittedModel, trial: FittedModel) -> float:
     has it. Otherwise misfit that no effect explains would keep the search alive, each further
     effect explaining a bit of it. Of two effects, each may leave the misfit of the other.
     """
-    if len(start.effects) < SETTINGS.free_effects:
+    if len(start.effects) < start.settings.free_effects:
         return start.penalised - trial.penalised
     inflation = by_significant_misfit(trial)
     return inflation.penalised(start) - inflation.penalised(trial)
@@ -80,7 +81,7 @@ def _by_prediction(claims: Sequence[Claim], context: SearchContext) -> list[Clai
     def order(k: int) -> tuple[bool, float]:
         trial, start = claims[k]
         gains = [own[k].scores[name] - s for name, s in before[id(start)].scores.items()]
-        worse = sum(gains) < 0.0 or min(gains) <= -SETTINGS.informative_gain
+        worse = sum(gains) < 0.0 or min(gains) <= -trial.settings.informative_gain
         return worse, trial.penalised - 2.0 * own[k].total
 
     return [claims[k] for k in sorted(range(len(claims)), key=order)]

@@ -19,7 +19,6 @@ from pyrofit.diagnose.base.inflation import by_significant_misfit
 from pyrofit.diagnose.base.model import Base, Free, fraction, model_of, strength_of
 from pyrofit.diagnose.search.refit import look_at, model_with, with_effect
 from pyrofit.diagnose.search.score_test import Screening
-from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects import known_effects
 from pyrofit.effects.base import has_programme
 from pyrofit.numerics import functions
@@ -85,13 +84,14 @@ def _explained(
     spare = 2.0 * float(functions.log(max(len(candidates), 1)))
     found: list[FittedModel] = []
     shown: set[str] = set()
-    for _ in range(SETTINGS.most_of_kinetics):
+    for _ in range(trial.settings.most_of_kinetics):
         names = [name for name in candidates if name not in trial.effects]
         looks = look_at(trial, names, processes)
         # A reaction of the base may have taken the part of an effect that was shown before.
         shown |= {look.effect for look in looks if look.detectability > 1.0}
         looks = [look for look in looks if look.effect in shown]
-        looks = sorted(looks, key=lambda look: float(look.ahead.min()))[: SETTINGS.most_formed]
+        looks = sorted(looks, key=lambda look: float(look.ahead.min()))
+        looks = looks[: trial.settings.most_formed]
         if not looks:
             break
         best = _best_with(trial, looks, starts, processes)
@@ -110,8 +110,9 @@ def _best_with(
 
     With another effect, reactions may take other parts.
     """
+    settings = trial.settings
     models = [model_with(trial, look.effect) for look in looks]
-    begins = [(k, x) for k in range(len(looks)) for x in (None, *starts[: SETTINGS.base_descents])]
+    begins = [(k, x) for k in range(len(looks)) for x in (None, *starts[: settings.base_descents])]
 
     def fit(i: int) -> Fit:
         k, x = begins[i]
@@ -121,7 +122,7 @@ def _best_with(
         whole = np.concatenate([x, trial.fit.x[x.size : base], np.zeros(len(model.names) - base)])
         _, quantity = strength_of(looks[k].effect)
         whole[base] = fraction(quantity, quantity.typical)
-        return descend_chi_square(model, whole, enough=SETTINGS.rough_gain)
+        return descend_chi_square(model, whole, enough=settings.rough_gain)
 
     fits = parallel_map(fit, len(begins), processes)
     found = [FittedModel(models[k], end) for (k, _), end in zip(begins, fits, strict=True)]
@@ -133,13 +134,13 @@ def _narrowed(base: Base, names: Collection[str], alone: Sequence[FittedModel]) 
 
     Misfit that is left widens them. It names the effects of the last fit.
     """
-    problem = base.likelihood.problem
+    problem, settings = base.likelihood.problem, base.settings
     count = len(problem.names)
     lowest, highest = np.ones(count), np.zeros(count)
     for trial in alone:
         misfit = max(by_significant_misfit(trial).factors)
         sds = np.sqrt(np.diag(trial.posterior.covariance())[:count] * misfit)
-        reach = np.maximum(SETTINGS.kinetics_reach * sds, SETTINGS.narrowest_kinetics)
+        reach = np.maximum(settings.kinetics_reach * sds, settings.narrowest_kinetics)
         lowest = np.minimum(lowest, np.clip(trial.fit.x[:count] - reach, 0.0, 1.0))
         highest = np.maximum(highest, np.clip(trial.fit.x[:count] + reach, 0.0, 1.0))
     shown = np.any(alone[0].fit.jacobian[: alone[0].model.points] != 0.0, axis=0)[:count]

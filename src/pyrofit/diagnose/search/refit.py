@@ -15,7 +15,6 @@ from pyrofit.diagnose.base.model import (
     strength_of,
 )
 from pyrofit.diagnose.search.score_test import Screening, change_by_effect
-from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects import known_effects
 from pyrofit.effects.base import Quantity
 from pyrofit.estimate.posterior import curvature
@@ -39,7 +38,7 @@ def with_effect(trial: FittedModel, seen: Screening) -> FittedModel:
 
 
 def from_best_start(
-    trial: FittedModel, seen: Screening, enough: float = SETTINGS.converged_gain
+    trial: FittedModel, seen: Screening, enough: float | None = None
 ) -> FittedModel:
     """Fit an effect in addition from the most promising strength; never worse than without it.
 
@@ -60,17 +59,17 @@ def from_elsewhere(
     seen: Screening,
     best: FittedModel,
     others: Sequence[int],
-    enough: float = SETTINGS.converged_gain,
+    enough: float | None = None,
 ) -> FittedModel:
     """Fit an effect from other starts, too, until two end alike."""
-    ends = [best.fit.chi2]
+    ends, near = [best.fit.chi2], trial.settings.same_valley
     for at in others:
         begin = _derivatives(trial, seen, at)
         end = descend_chi_square(
             best.model, _start(trial, seen, at), begin, enough=enough, known=best.fit
         )
         best = lower_of(best, end)
-        if end.returned or any(abs(end.chi2 - other) < SETTINGS.same_valley for other in ends):
+        if end.returned or any(abs(end.chi2 - other) < near for other in ends):
             break
         ends.append(end.chi2)
     return best

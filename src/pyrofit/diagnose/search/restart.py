@@ -10,7 +10,6 @@ from pyrofit.diagnose.base.descent import Fit, descend_chi_square, refreshed
 from pyrofit.diagnose.base.fitted import FittedModel, Key, followed, lower_of, misfits_badly
 from pyrofit.diagnose.base.model import extended, model_of, strength_of
 from pyrofit.diagnose.search.step import SearchContext, in_order
-from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.numerics import linear
 from pyrofit.parallel import parallel_map
 from pyrofit.solver.arrays import FloatArray
@@ -32,17 +31,16 @@ def restarted(
     A further effect may gain only because its fit starts anew. The leading models of each step are
     therefore fitted again without it, each from where it ended.
     """
-    wanted = [
-        [(trial, start.effects) for trial in trials if set(trial.effects) > set(start.effects)]
-        for start, trials in tasks
-    ]
-    wanted = [of_step[: SETTINGS.most_restarts] for of_step in wanted]
+    wanted = []
+    for start, trials in tasks:
+        larger = [trial for trial in trials if set(trial.effects) > set(start.effects)]
+        wanted.append([(t, start.effects) for t in larger[: start.settings.most_restarts]])
     again = iter(_reduced([task for of_step in wanted for task in of_step], context.processes))
     found = []
     for (start, _), of_step in zip(tasks, wanted, strict=True):
         ends = list(islice(again, len(of_step)))
         best = min(ends, key=lambda trial: trial.penalised, default=start)
-        lower = best.penalised < start.penalised - SETTINGS.same_valley
+        lower = best.penalised < start.penalised - start.settings.same_valley
         found.append(best if lower else start)
     return found
 
@@ -54,13 +52,13 @@ def from_other_starts(trials: Sequence[FittedModel], context: SearchContext) -> 
     """
     if not trials or not context.other_starts or not misfits_badly(trials[0]):
         return []
-    leading = trials[: SETTINGS.most_refitted]
+    leading = trials[: trials[0].settings.most_refitted]
     begins = [(t, x) for t in leading for x in context.other_starts]
 
     def end(i: int) -> Fit:
         trial, x = begins[i]
         rough = descend_chi_square(
-            trial.model, _start(trial, x), enough=SETTINGS.rough_gain, known=trial.fit
+            trial.model, _start(trial, x), enough=trial.settings.rough_gain, known=trial.fit
         )
         return followed(replace(trial, fit=rough)).fit if rough.chi2 < trial.fit.chi2 else rough
 

@@ -10,6 +10,7 @@ the part that no other parameter can imitate is P d, P = I - J (J^T J + Pi)^-1 J
   candidates and raises the alarm; no effect is claimed from it.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,7 +18,6 @@ import numpy as np
 from pyrofit.diagnose.base.adequacy import score
 from pyrofit.diagnose.base.descent import Fit
 from pyrofit.diagnose.base.model import Model, extended, model_of, strength_of
-from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.estimate.projection import project
 from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
@@ -71,8 +71,10 @@ def change_by_effect(model: Model, fit: Fit, effect: str, spanned: FloatArray) -
         more = model_of(model.base, {**model.effects, effect: (name,)}, model.channels)
     except ValueError:  # another effect sets the same number of the description
         return None
-    sets = np.array([extended(fit.x, effect, s) for s in strengths_tried(effect)])
-    runs = list(zip(strengths_tried(effect), more.residuals_all(sets), strict=True))
+    settings = model.base.settings
+    tried = strengths_tried(effect, settings.tried_strengths, settings.near_limit)
+    sets = np.array([extended(fit.x, effect, s) for s in tried])
+    runs = list(zip(tried, more.residuals_all(sets), strict=True))
     runs = [(s, residuals) for s, residuals in runs if more.finished(residuals)]
     if not runs:
         return None
@@ -82,13 +84,17 @@ def change_by_effect(model: Model, fit: Fit, effect: str, spanned: FloatArray) -
     return Screening(effect, strengths, d, project(spanned, d), ahead, _typical(effect, strengths))
 
 
-def strengths_tried(effect: str) -> FloatArray:
-    """Return the strengths that are tried, weak ones first, both sides where limits allow."""
+def strengths_tried(effect: str, sizes: Sequence[float], near_limit: float) -> FloatArray:
+    """Return the strengths that are tried, weak ones first, both sides where limits allow.
+
+    ``sizes`` are fractions of the typical distance from the null value. The strengths keep the
+    fraction ``near_limit`` of the search range to either limit.
+    """
     _, quantity = strength_of(effect)
     distance = abs(quantity.typical - quantity.value)
-    margin = SETTINGS.near_limit * (quantity.upper - quantity.lower)
+    margin = near_limit * (quantity.upper - quantity.lower)
     found: list[float] = []
-    for size in SETTINGS.tried_strengths:
+    for size in sizes:
         for side in (1.0, -1.0):
             value = quantity.value + side * size * distance
             value = float(np.clip(value, quantity.lower + margin, quantity.upper - margin))

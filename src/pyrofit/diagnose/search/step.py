@@ -21,7 +21,6 @@ from pyrofit.diagnose.search.refit import (
     with_form,
 )
 from pyrofit.diagnose.search.score_test import Screening
-from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.effects import known_effects
 from pyrofit.logs import Tell
 from pyrofit.parallel import parallel_map
@@ -80,8 +79,9 @@ Tried = Sequence[tuple[SearchStep, int]]
 def singles(step: SearchStep, context: SearchContext) -> tuple[FittedModel, ...]:
     """Fit every effect alone, then the leading ones that have several forms in these."""
     (trials,) = _polished([step.start], _fitted([(step, len(step.looks))], context), context)
-    leading = [trial for trial in trials if fixed_forms(trial)][: SETTINGS.most_formed]
-    (formed,) = _forms([leading], context)
+    most = step.start.settings.most_formed
+    leading = [trial for trial in trials if fixed_forms(trial)][:most]
+    (formed,) = _forms([step.start], [leading], context)
     return in_order([*trials, *formed])
 
 
@@ -93,12 +93,14 @@ def more(
     Fits that gain next to nothing, or end far above ``best``, the penalised chi-square of a model
     at hand, stay rough.
     """
+    if not tried:
+        return []
     begun = [step.start for step, _ in tried]
     trials = _polished(begun, _fitted(tried, context, best), context, best)
     leading = [
         _promising(start, of_step[:1], best) for start, of_step in zip(begun, trials, strict=True)
     ]
-    formed = _forms(leading, context)
+    formed = _forms(begun, leading, context)
     return [in_order([*own, *forms]) for own, forms in zip(trials, formed, strict=True)]
 
 
@@ -117,10 +119,9 @@ def _promising(start: FittedModel, trials: Sequence[FittedModel], best: float) -
     They do not end far above the best one, or the best one at hand, and gain enough over the start.
     """
     lowest = min([best, *(trial.penalised for trial in trials)])
-    most = start.fit.chi2 - SETTINGS.hopeless_gain
-    return [
-        t for t in trials if t.penalised <= lowest + SETTINGS.hopeless_chi2 and t.fit.chi2 <= most
-    ]
+    highest = lowest + start.settings.hopeless_chi2
+    most = start.fit.chi2 - start.settings.hopeless_gain
+    return [t for t in trials if t.penalised <= highest and t.fit.chi2 <= most]
 
 
 def _fitted(tried: Tried, context: SearchContext, best: float = np.inf) -> list[list[FittedModel]]:
@@ -135,7 +136,7 @@ def _fitted(tried: Tried, context: SearchContext, best: float = np.inf) -> list[
         for seen in most_promising(step, most)
     ]
     models = [model_with(one.start, one.seen.effect) for one in tries]
-    rough = SETTINGS.rough_gain
+    rough = tried[0][0].start.settings.rough_gain
     others = [starts(one.seen)[1:] for one in tries]
     found: dict[int, FittedModel] = {}
 
@@ -174,12 +175,12 @@ def _is_weak(end: FittedModel, one: _Try) -> bool:
 
     Chi-square may have a minimum there, and a lower one at the effect's usual strength.
     """
-    effect = one.seen.effect
+    effect, settings = one.seen.effect, one.start.settings
     _, quantity = strength_of(effect)
     share = (end.strength(effect) - quantity.value) / (quantity.typical - quantity.value)
-    if abs(share) < SETTINGS.weak_share:
+    if abs(share) < settings.weak_share:
         return True
-    return end.fit.chi2 > (1.0 - SETTINGS.little_gain_share) * one.start.fit.chi2
+    return end.fit.chi2 > (1.0 - settings.little_gain_share) * one.start.fit.chi2
 
 
 def most_promising(step: SearchStep, most: int) -> list[Screening]:
@@ -189,24 +190,27 @@ def most_promising(step: SearchStep, most: int) -> list[Screening]:
 
 def promising_or_kin(step: SearchStep, effect: str) -> list[Screening]:
     """Return the looks to try in the place of an effect: the leading ones, and all of its group."""
-    catalogue = known_effects()
+    catalogue, most = known_effects(), step.start.settings.most_exchanged
     return [
         look
         for k, look in enumerate(most_promising(step, len(step.looks)))
-        if k < SETTINGS.most_exchanged or catalogue[look.effect].group == catalogue[effect].group
+        if k < most or catalogue[look.effect].group == catalogue[effect].group
     ]
 
 
 def _forms(
-    leading: Sequence[Sequence[FittedModel]], context: SearchContext
+    begun: Sequence[FittedModel],
+    leading: Sequence[Sequence[FittedModel]],
+    context: SearchContext,
 ) -> list[list[FittedModel]]:
     """Fit models of each step with one form parameter more, the best one with a second, if it pays.
 
     Models whose form parameter lowers the penalised chi-square are searched on from elsewhere:
     otherwise a further effect may gain only because its fit starts anew.
     """
+    settings = begun[0].settings
     found: list[list[FittedModel]] = [[] for _ in leading]
-    for _ in range(SETTINGS.most_form_parameters):
+    for _ in range(settings.most_form_parameters):
         tasks = [
             (k, trial, *form)
             for k, trials in enumerate(leading)
@@ -221,7 +225,7 @@ def _forms(
             found[k].append(trial)
             if trial.penalised < start.penalised:
                 paying[k].append(trial)
-        chosen = [in_order(trials)[: SETTINGS.most_polished_forms] for trials in paying]
+        chosen = [in_order(trials)[: settings.most_polished_forms] for trials in paying]
         better = work_together(lambda trials: polished(trials, context.processes), chosen)
         for k, trials in enumerate(better):
             found[k] += trials
@@ -244,7 +248,7 @@ def _polished(
     """Return the trials of each step in order, the leading ones searched on from elsewhere."""
     orders = [in_order(of_step) for of_step in trials]
     leading = [
-        _promising(start, order[: SETTINGS.most_polished], best)
+        _promising(start, order[: start.settings.most_polished], best)
         for start, order in zip(begun, orders, strict=True)
     ]
     better = work_together(lambda trials: polished(trials, context.processes), leading)

@@ -11,7 +11,6 @@ from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.search.refit import look_at, model_with, with_effect
 from pyrofit.diagnose.search.score_test import Screening
 from pyrofit.diagnose.search.step import SearchContext, SearchStep, most_promising
-from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.parallel import parallel_map
 
 
@@ -48,7 +47,7 @@ def with_sharp_noise(step: SearchStep, context: SearchContext) -> SearchStep:
     """
     if step.lack().passes and not blurred(step.start.model.base):
         return step
-    order = most_promising(step, SETTINGS.noise_leaders)
+    order = most_promising(step, step.start.settings.noise_leaders)
     if not order:
         return step
     fits = parallel_map(

@@ -33,7 +33,6 @@ from pyrofit.diagnose.search.step import (
     with_forms,
 )
 from pyrofit.diagnose.search.step_start import step_from, with_sharp_noise
-from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.numerics import functions
 
 Fitting = Callable[[Sequence[SearchStep]], Sequence[Sequence[FittedModel]]]
@@ -114,10 +113,10 @@ def settled(found: Search, most: int) -> bool:
 
 def _leading(found: Search) -> list[FittedModel]:
     """Return the best models of each number of effects, the final one among them."""
-    best: list[FittedModel] = [found.end]
+    best, most = [found.end], found.end.settings.most_carried
     for size in range(1, max(len(t.effects) for t in found.trials) + 1):
         of_size = [t for t in best_of_each(found.trials) if len(t.effects) == size]
-        best += [t for t in of_size[: SETTINGS.most_carried] if t is not found.end]
+        best += [t for t in of_size[:most] if t is not found.end]
     return best
 
 
@@ -201,9 +200,9 @@ class Pass:
 
     def _more(self, steps: Sequence[SearchStep]) -> list[SearchStep]:
         """Fit one effect more to the models that are carried on, the best one first."""
-        first = SETTINGS.candidates_of_first_branch
-        second = SETTINGS.candidates_of_second_branch
-        mosts = [first, *[second] * (len(steps) - 1)]
+        settings = steps[0].start.settings
+        others = [settings.candidates_of_second_branch] * (len(steps) - 1)
+        mosts = [settings.candidates_of_first_branch, *others]
         return self._fitted(
             steps, lambda given: more(list(zip(given, mosts, strict=True)), self.context)
         )
@@ -223,7 +222,8 @@ class Pass:
                 self.context.tell(f"a lower minimum without the last effect: {start.fit.chi2:.1f}")
                 found[k] = step_from(start, [seen.effect for seen in found[k].looks], self.context)
                 lower.append(k)
-        again = more([(found[k], SETTINGS.most_refitted) for k in lower], self.context)
+        refitted = [(found[k], found[k].start.settings.most_refitted) for k in lower]
+        again = more(refitted, self.context)
         for k, own in zip(lower, again, strict=True):
             trials[k] = best_of_each([*trials[k], *own])
         return [replace(step, trials=tuple(own)) for step, own in zip(found, trials, strict=True)]
@@ -257,15 +257,16 @@ class Pass:
         """
         if not found.end_lack.adequate or len(found.end.effects) >= self.most:
             return found
+        settings = found.end.settings
         steps = [
             step_from(up_to_date(first), self._others(found.end, first), self.context)
             for effect, free in found.end.model.effects.items()
             if len(free) > 1
-            for first in in_the_place(found, effect)[: SETTINGS.most_split]
+            for first in in_the_place(found, effect)[: settings.most_split]
         ]
         whole = SearchStep(found.base, partial(getattr, found, "end_lack"), (), (found.end,))
         before = len(found.rounds)
-        found = self._with_more(found, steps, SETTINGS.most_beside)
+        found = self._with_more(found, steps, settings.most_beside)
         pairs = [t for step in found.rounds[before:] for t in step.trials]
         inside = [t for t in pairs if not strengths_at_limit(t) and finishes(t)]
         split = self._ended_best(found, inside)
@@ -296,7 +297,7 @@ class Pass:
     def _formed(self, found: Search) -> Search:
         """Fit form parameters of the final model that pay, before a test may reject an effect."""
         best = found.end
-        for _ in range(SETTINGS.most_form_parameters):
+        for _ in range(best.settings.most_form_parameters):
             tasks = [(best, *form) for form in fixed_forms(best)]
             formed = in_order(with_forms(tasks, self.context.processes))
             if not formed or formed[0].penalised >= best.penalised:

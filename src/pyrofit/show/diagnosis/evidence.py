@@ -3,7 +3,7 @@
 import pandas as pd
 
 from pyrofit.config import Study
-from pyrofit.diagnose.settings import SETTINGS
+from pyrofit.diagnose.settings import Settings
 from pyrofit.results import diagnosis
 from pyrofit.results.diagnosis_schema import Diagnosis, OfEvidence
 from pyrofit.results.files import Results
@@ -65,8 +65,8 @@ TABLE = Table(
     "that have an effect of the group. Log score: its change by the effect, for each test "
     "predicted from the others, and for the held-out tests. In brackets, the change expected "
     "if the effect is real. A test cannot tell if that is too small beside its noise and its "
-    f"uncertain flux, h, thickness and clock. Below {SETTINGS.deciding_gain:g} it does not decide "
-    "alone. Equal strengths: p of the test that all experiments give the effect the same "
+    f"uncertain flux, h, thickness and clock. Below {Settings().deciding_gain:g} it does not "
+    "decide alone. Equal strengths: p of the test that all experiments give the effect the same "
     "strength. Free correction: the best free curve in the place of the effect, and its -2 ln "
     "marginal likelihood relative to the effect.",
     headings={

@@ -2,7 +2,6 @@
 
 from pyrofit.config import Study
 from pyrofit.diagnose.diagnosis import DiagnosisWork, examine
-from pyrofit.diagnose.settings import SETTINGS
 from pyrofit.logs import Tell
 from pyrofit.results.files import Results
 from pyrofit.results.recorded import load
@@ -43,7 +42,7 @@ def _of_draw(study: Study, results: Results, draw: int, found: DiagnosisWork) ->
         study=study.name,
         origin=record.origin(study, results),
         draw=draw,
-        disturbance=SETTINGS.disturbance,
+        disturbance=end.settings.disturbance,
         kind=verdict.kind,
         confirmed=verdict.confirmed,
         sets=verdict.sets,
