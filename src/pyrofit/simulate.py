@@ -17,7 +17,7 @@ from pyrofit.solver.curves import Curves, Request, Runs
 from pyrofit.solver.heated import heated_samples
 from pyrofit.solver.lower import Substance
 from pyrofit.solver.lower_experiment import lower_layers, lower_places, lower_share
-from pyrofit.solver.lower_exposure import lower_exposure
+from pyrofit.solver.lower_exposure import lower_exposure, number_of_sets
 from pyrofit.solver.observe import observe
 from pyrofit.solver.run import Case, repeated_case, run_kernel
 
@@ -181,8 +181,7 @@ def lowered(experiment: SlabExperiment, substance: Substance, accuracy: Accuracy
     factor = accuracy.cells_factor
     backing = lower_backing(experiment, material, properties, values, sets, factor)
     exposure = with_backing(exposure, backing)
-    T_start = np.full(sets, value_of(sample.initial_temperature_K, values), np.float64)
-    cells = np.full(sets, accuracy.cells or 0)
+    T_start = number_of_sets(value_of(sample.initial_temperature_K, values), sets)
     if accuracy.cells is None:
         from pyrofit.solver.kernels.grid import cells_needed
 
@@ -190,6 +189,8 @@ def lowered(experiment: SlabExperiment, substance: Substance, accuracy: Accuracy
         needed = cells_needed(share, thickness, T_start, properties, network, exposure)
         needed = np.minimum(needed, accuracy.most_cells)
         cells = np.ceil(accuracy.cells_factor * needed).astype(np.int64)
+    else:
+        cells = np.full(sets, accuracy.cells)
     return Case(layers + backing, cells, T_start, Description(properties, network, exposure))
 
 

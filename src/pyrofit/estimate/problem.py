@@ -111,9 +111,8 @@ class Problem:
         distinct: dict[bytes, tuple[Indices, Indices]] = {}
         shown = {name: self.alike[name] for name in (self.runs if names is None else names)}
         for name in dict.fromkeys(shown.values()):
-            first, of_set = distinct_sets(
-                [values[p] for p in self._used[name] if p in values], sets
-            )
+            used = self._used[name] if sets > 1 else ()
+            first, of_set = distinct_sets([values[p] for p in used if p in values], sets)
             key = of_set.tobytes()
             distinct[key] = first, of_set
             simulate = kind_of(self.runs[name].experiment).simulate

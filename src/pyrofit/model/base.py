@@ -1,7 +1,7 @@
 """Base of every part of a description: frozen, checked, numbers with rules."""
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Hashable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, Self, TypeVar, cast
 
@@ -27,18 +27,18 @@ class Part(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
     INHERITS: ClassVar[frozenset[str]] = frozenset()
     """Fields whose numbers obey the rules of the place at which the part stands, too."""
-    _derived: dict[str, Any] = PrivateAttr(default_factory=dict)
+    _derived: dict[Hashable, Any] = PrivateAttr(default_factory=dict)
 
     def __eq__(self, other: object) -> bool:
         return type(self) is type(other) and self.__dict__ == other.__dict__
 
-    def derived(self, name: str, make: Callable[[Self], Made]) -> Made:
+    def derived(self, name: Hashable, make: Callable[[Self], Made]) -> Made:
         """Return ``make(self)``, made once: a part never changes."""
         # Not `self._derived`: pydantic looks a private attribute up in ten times the time.
-        made = cast(dict[str, dict[str, Any]], self.__pydantic_private__)["_derived"]
+        made: dict[Hashable, Made] = self.__pydantic_private__["_derived"]  # type: ignore[index]
         if name not in made:
             made[name] = make(self)
-        return cast(Made, made[name])
+        return made[name]
 
     def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
         """Return a copy with some values changed; nothing derived is taken over."""

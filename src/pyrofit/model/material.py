@@ -146,7 +146,9 @@ class Material(Part):
     @property
     def oxidises(self) -> bool:
         """Whether the rate of a reaction depends on oxygen."""
-        return any(reaction.oxygen_order != 0.0 for reaction in self.reactions.values())
+        return self.derived(
+            "oxidises", lambda m: any(r.oxygen_order != 0.0 for r in m.reactions.values())
+        )
 
     def without_bodies_but(self, bodies: frozenset[str]) -> Self:
         """Return the material without the inert components that are not among some bodies."""

@@ -166,6 +166,9 @@ class Sample(Part):
     @property
     def bodies(self) -> frozenset[str]:
         """Components that layers with a composition of their own, adhesive and backing have."""
+        return self.derived("bodies", Sample._bodies)
+
+    def _bodies(self) -> frozenset[str]:
         parts = (*self.backing, *([self.adhesive] if self.adhesive else ()))
         of_layers = {name for layer in self.layers for name in layer.composition or layer.beside}
         return frozenset({*of_layers, *(part.component for part in parts)})

@@ -28,6 +28,8 @@ def lower_backing(
 
     A cell is as thick as heat diffuses within `BACKING_TIME_S`, d = sqrt(k/(rho c) t).
     """
+    if not experiment.sample.backing:
+        return ()
     names = list(material.components)
     T = value_of(experiment.sample.initial_temperature_K, values)
     k, c = (properties_at(table, T) for table in (arrays.conductivity, arrays.specific_heat))

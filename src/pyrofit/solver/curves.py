@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -63,6 +64,16 @@ class Request:
             self.place,
         )
 
+    @cached_property
+    def alone(self) -> "Request":
+        """The request of one set, times of the shape (1, points)."""
+        return self.at(self.time_s[None])
+
+    @cached_property
+    def end_s(self) -> FloatArray:
+        """When it is over in each set [s], shape (sets,), of times of the shape (sets, points)."""
+        return np.asarray(self.time_s.max(axis=1) + 0.5 * self.average_s)
+
     def programme(self) -> tuple[FloatArray, FloatArray]:
         """Return the temperatures [K] and their rates of change [K/s].
 
@@ -90,8 +101,7 @@ class Curves(NamedTuple):
     mass_error: float = 0.0
 
 
-@dataclass(frozen=True)
-class Runs:
+class Runs(NamedTuple):
     """The same of several sets: shape (sets,), signals (sets, points)."""
 
     status: IntArray

@@ -130,15 +130,12 @@ def _curves(signals: Mapping[str, FloatArray]) -> Curves:
 
 def _lags(experiments: Sequence[HeatedExperiment], values: Values, sets: int) -> FloatArray:
     """Return by how much each sample is behind its programme [K], shape (experiments, sets)."""
-    return np.array(
-        [
-            np.full(sets, 0.0 if e.is_isothermal else value_of(e.lag_s, values))
-            * e.heating_rate_K_min
-            / 60.0
-            - value_of(e.temperature_offset_K, values)
-            for e in experiments
-        ]
-    )
+    rows = [
+        (0.0 if e.is_isothermal else value_of(e.lag_s, values)) * e.heating_rate_K_min / 60.0
+        - value_of(e.temperature_offset_K, values)
+        for e in experiments
+    ]
+    return stack(rows, sets)
 
 
 def _responses(experiments: Sequence[HeatedExperiment], values: Values, sets: int) -> FloatArray:

@@ -26,7 +26,7 @@ from pyrofit.solver.arrays import (
     Values,
 )
 from pyrofit.solver.lower_network import lower_network
-from pyrofit.solver.lower_property import property_table, stack, total
+from pyrofit.solver.lower_property import Numbers, property_table, stack, total
 
 OPAQUE_1_M = 1e6
 """Absorption coefficient of an opaque body behind or beside a translucent material."""
@@ -52,7 +52,7 @@ def fractions(
 class _Described:
     """The part of the component properties that no parameter changes."""
 
-    numbers: tuple[float | str, ...]
+    numbers: Numbers
     """Density, absorption coefficient and emissivity of each component; if none depends on
     temperature, the properties of `_TABLES`, too."""
     plain: bool
@@ -71,7 +71,7 @@ def _described(material: words.Material) -> _Described:
     if constant.all():
         rows += [[getattr(c, table) for c in parts] for table in _TABLES]
     return _Described(
-        numbers=tuple(number for row in rows for number in row),
+        numbers=Numbers(number for row in rows for number in row),
         plain=bool(constant.all()),
         own=np.array([n in material.own for n in material.components])[:, None],
         alike=_alike(material),
@@ -115,7 +115,7 @@ def lower_material(
     ``conductivity_factor``.
     """
     described = material.derived("described", _described)
-    given = stack([value_of(number, values) for number in described.numbers], sets)
+    given = described.numbers.rows(values, sets)
     rows = given.reshape(-1, len(material.components), sets)
     density, absorption, emissivity = rows[:3]
     if described.plain:
@@ -151,7 +151,7 @@ def _absorption(given: FloatArray, own: BoolArray, length: Value) -> FloatArray:
         long = np.asarray(length)
         inverse = np.where(long > 0.0, 1.0 / np.where(long > 0.0, long, 1.0), given)
         given = np.where(own, inverse, given)
-    if not own.all():
+    if np.count_nonzero(own) < own.size:
         opaque = ~own & (given == 0.0) & (given > 0.0).any(axis=0)
         given = np.where(opaque, OPAQUE_1_M, given)
     return given
@@ -194,9 +194,7 @@ class Substance:
         Their mass is zero in every cell, so they only cost time.
         """
         bodies = sample.bodies
-        material = self.material.derived(
-            f"with {sorted(bodies)}", lambda m: m.without_bodies_but(bodies)
-        )
+        material = self.material.derived(bodies, lambda m: m.without_bodies_but(bodies))
         if material is self.material:
             return self
         if bodies not in self._smaller:

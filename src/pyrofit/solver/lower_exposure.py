@@ -122,8 +122,9 @@ def _mixing_depth(
         return value_of(depth, values)
     volume = share * arrays.specific_volume
     T = value_of(experiment.sample.initial_temperature_K, values)
-    k = total(volume * properties_at(arrays.conductivity, T)) / total(volume)
-    rho_c = total(share * properties_at(arrays.specific_heat, T)) / total(volume)
+    size = total(volume)
+    k = total(volume * properties_at(arrays.conductivity, T)) / size
+    rho_c = total(share * properties_at(arrays.specific_heat, T)) / size
     return value_of(depth.cell_size_factor, values) * np.sqrt(k / rho_c)
 
 

@@ -1,6 +1,10 @@
 """From reactions in words to the arrays of the kernels, for all sets of parameters at once."""
 
+import itertools
+from collections.abc import Collection
 from dataclasses import dataclass
+from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -8,8 +12,8 @@ from pyrofit.constants import GAS_CONSTANT
 from pyrofit.model import material as words
 from pyrofit.model.base import value_of
 from pyrofit.numerics import functions
-from pyrofit.solver.arrays import BoolArray, IntArray, Network, Value, Values
-from pyrofit.solver.lower_property import stack, total
+from pyrofit.solver.arrays import BoolArray, FloatArray, IntArray, Network, Value, Values
+from pyrofit.solver.lower_property import Numbers, stack, total
 
 
 def rate_factor(reaction: words.Reaction, values: Values) -> Value:
@@ -33,48 +37,75 @@ class _Plan:
     """The part of a network that no parameter changes."""
 
     reactions: tuple[words.Reaction, ...]
-    numbers: tuple[tuple[float | str, ...], ...]
-    """The numbers of `_NUMBERS` of each reaction."""
+    kinetics: Numbers
+    """The numbers of `_KINETICS` of each reaction."""
+    heats: Numbers
+    """The numbers of `_HEATS`, likewise."""
+    yields: Numbers
+    """Of each reaction that of every component."""
+    follows_A: bool
+    """Whether the factor of every rate is A."""
     reactant: IntArray
-    products: tuple[tuple[int, int, str], ...]
-    """Reaction, component and its name, of every product."""
     residue: IntArray
     plain: bool
     """Whether every reaction has its own reactant and at most one, inert, product."""
 
 
-_NUMBERS = (
-    "order",
-    "catalysis",
-    "E_J_mol",
-    "oxygen_order",
-    "oxygen_depth_m",
-    "oxygen_use",
-    "heat_of_reaction_J_kg",
-    "heat_of_combustion_J_kg",
-)
+_OXYGEN = "oxygen_order", "oxygen_depth_m", "oxygen_use"
+_KINETICS = "A_1_s", "order", "catalysis", "E_J_mol", *_OXYGEN
+_HEATS = "heat_of_reaction_J_kg", "heat_of_combustion_J_kg"
 
 
-def _plan(material: words.Material) -> _Plan:
+def _plan(material: words.Material, left_out: Collection[str]) -> _Plan:
+    """Return the plan of a network in which some of the `_HEATS` are zero."""
     names = list(material.components)
     reactions = tuple(material.reactions[name] for name in material.reaction_order())
     reactant = [names.index(r.reactant) for r in reactions]
-    products = [
-        (j, names.index(product), product)
-        for j, reaction in enumerate(reactions)
-        for product in reaction.products
-    ]
-    formed = {j: i for j, i, _ in reversed(products)}
+    products = [(j, names.index(name)) for j, r in enumerate(reactions) for name in r.products]
+    formed = dict(reversed(products))
     return _Plan(
         reactions=reactions,
-        numbers=tuple(tuple(getattr(r, name) for r in reactions) for name in _NUMBERS),
+        kinetics=Numbers(getattr(r, name) or 0.0 for name in _KINETICS for r in reactions),
+        heats=Numbers(
+            0.0 if name in left_out else getattr(r, name) for name in _HEATS for r in reactions
+        ),
+        yields=Numbers(r.products.get(name, 0.0) for r in reactions for name in names),
+        follows_A=not material.oxidises and all(r.A_1_s is not None for r in reactions),
         reactant=np.array(reactant, dtype=np.int64),
-        products=tuple(products),
         residue=np.array([formed.get(j, 0) for j in range(len(reactions))], dtype=np.int64),
         plain=len(set(reactant)) == len(reactions)
         and len(formed) == len(products)
-        and not any(i in reactant for _, i, _ in products),
+        and not any(i in reactant for _, i in products),
     )
+
+
+def _kinetics(rows: FloatArray) -> dict[str, Any]:
+    """Return what of a network follows from its `_KINETICS`."""
+    numbers = rows.reshape(len(_KINETICS), -1, rows.shape[-1])
+    factor, order, catalysis, energy, oxygen_order, depth, use = numbers
+    catalysed = bool(np.count_nonzero(catalysis))
+    return {
+        "root_factor": np.sqrt(factor),
+        "activation_temperature": energy / GAS_CONSTANT,
+        "order": order,
+        "catalysis": catalysis,
+        "oxygen_order": oxygen_order,
+        "oxygen_fall": oxygen_order / depth,
+        "oxygen_use": use,
+        "first_order": not (catalysed or np.count_nonzero(order != 1.0)),
+        "catalysed": catalysed,
+    }
+
+
+def _solid(plan: _Plan, components: int, rows: FloatArray) -> dict[str, Any]:
+    """Return what of a network follows from its yields."""
+    count = len(plan.reactions)
+    yields = rows.reshape(count, components, rows.shape[-1])
+    return {
+        "yields": yields,
+        "gas": 1.0 - total(yields.swapaxes(0, 1)),
+        "residue_yield": yields[np.arange(count), plan.residue],
+    }
 
 
 def is_separate(network: Network) -> BoolArray:
@@ -85,12 +116,9 @@ def is_separate(network: Network) -> BoolArray:
     running = network.root_factor > 0.0
     mixed = running & (network.catalysis > 0.0) & (network.order != 1.0)
     separate: BoolArray = ~np.any(mixed, axis=0)
-    for j, a in enumerate(network.reactant.tolist()):
-        for k, b in enumerate(network.reactant.tolist()):
-            fed = network.yields[j, b] > 0.0
-            if j != k and a == b:
-                fed = np.ones_like(fed)
-            separate &= ~(running[j] & running[k] & fed)
+    for (j, a), (k, b) in itertools.permutations(enumerate(network.reactant.tolist()), 2):
+        fed = network.yields[j, b] > 0.0
+        separate &= ~(running[j] & running[k] & (fed | (a == b)))
     return separate
 
 
@@ -109,41 +137,28 @@ def lower_network(
     volume fraction in a gas that reaches all of the sample. That of a slab is 1 where the kernel
     takes its fall over depth and time into account, and 0 where there is none.
     """
-    plan = material.derived("network", _plan)
-    count = len(plan.reactions)
-    of_heat, of_burnt = plan.numbers[-2:]
-    none = (0.0,) * count
-    last = of_heat if heats or burning else none, of_burnt if burning else none
-    rows = (number for row in (*plan.numbers[:-2], *last) for number in row)
-    numbers = stack([value_of(number, values) for number in rows], sets)
-    order, catalysis, energy, oxygen_order, depth, use, heat, burnt = numbers.reshape(
-        len(_NUMBERS), count, sets
-    )
-    yields = np.zeros((count, len(material.components), sets))
-    for j, i, product in plan.products:
-        yields[j, i] = value_of(plan.reactions[j].products[product], values)
-    factor = stack([rate_factor(r, values) for r in plan.reactions], sets)
+    left_out = () if burning else _HEATS[1:] if heats else _HEATS
+    plan = material.derived(("network", left_out), lambda m: _plan(m, left_out))
+    rates = plan.kinetics.lowered(values, sets, _kinetics)
+    solid = plan.yields.lowered(values, sets, partial(_solid, plan, len(material.components)))
+    if not plan.follows_A:
+        factor = stack([rate_factor(r, values) for r in plan.reactions], sets)
+        if material.oxidises:
+            factor *= stack([oxygen_factor(r, oxygen, values) for r in plan.reactions], sets)
+        rates = {**rates, "root_factor": np.sqrt(factor)}
+    heat, burnt = plan.heats.rows(values, sets).reshape(2, -1, sets)
+    glow = np.zeros(heat.shape)
     if material.oxidises:
-        factor *= stack([oxygen_factor(r, oxygen, values) for r in plan.reactions], sets)
+        glow = np.where(rates["oxygen_order"] > 0.0, np.maximum(-heat, 0.0), glow)
     return Network(
         reactant=plan.reactant,
-        root_factor=np.sqrt(factor),
-        activation_temperature=energy / GAS_CONSTANT,
-        order=order,
-        catalysis=catalysis,
-        oxygen_order=oxygen_order,
-        oxygen_fall=oxygen_order / depth,
-        oxygen_use=use,
         heat=heat,
-        yields=yields,
-        gas=1.0 - total(yields.swapaxes(0, 1)),
         combustion=burnt,
-        glow=np.where(oxygen_order > 0.0, np.maximum(-heat, 0.0), 0.0),
+        glow=glow,
         burns=False,
         oxidises=material.oxidises and oxygen != 0.0,
-        first_order=bool(np.all(order == 1.0) and not np.any(catalysis)),
-        catalysed=bool(np.any(catalysis)),
         plain=plan.plain,
         residue=plan.residue,
-        residue_yield=yields[np.arange(count), plan.residue],
+        **rates,
+        **solid,
     )

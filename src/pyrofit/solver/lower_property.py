@@ -1,8 +1,9 @@
 """From properties in words to tables over temperature, for all sets at once."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import reduce
+from typing import Any
 
 import numpy as np
 
@@ -18,17 +19,45 @@ from pyrofit.solver.arrays import (
 
 LEAST_SHARE = 0.01
 """Least value of a linear property, relative to its reference value, and of a changed one."""
+SHORT = 64
+"""Rows of at most so many numbers are added up faster in one call."""
 NODES_K: FloatArray = TABLE_TEMPERATURES_K[:, None]
 
 
 def stack(rows: Sequence[Value], sets: int) -> FloatArray:
     """Return one row per value, shape (values, sets)."""
-    if sets == 1 and all(isinstance(value, float) for value in rows):
+    if sets == 1 and {float}.issuperset(map(type, rows)):
         return np.array(rows)[:, None]
     out = np.empty((len(rows), sets))
     for row, value in zip(out, rows, strict=True):
         row[:] = value
     return out
+
+
+class Numbers:
+    """Numbers of a description; those that no parameter changes are put in only once."""
+
+    def __init__(self, numbers: Iterable[float | str]) -> None:
+        self._given: list[Any] = list(numbers)
+        self._named = [(i, n) for i, n in enumerate(self._given) if isinstance(n, str)]
+        self._lowered: dict[str, Any] | None = None
+
+    def rows(self, values: Values, sets: int) -> FloatArray:
+        """Return one row per number, shape (numbers, sets)."""
+        rows = self._given.copy()
+        for i, name in self._named:
+            rows[i] = value_of(name, values)
+        return stack(rows, sets)
+
+    def lowered(
+        self, values: Values, sets: int, lower: Callable[[FloatArray], dict[str, Any]]
+    ) -> dict[str, Any]:
+        """Return ``lower(rows)``; where no parameter changes a number, once for a set alone."""
+        if self._named or sets > 1:
+            return lower(self.rows(values, sets))
+        if self._lowered is None:
+            self._lowered = lower(self.rows(values, sets))
+        return self._lowered
 
 
 def property_table(prop: object, values: Values, sets: int = 1) -> FloatArray:
@@ -102,4 +131,6 @@ def _given(change: Value) -> bool:
 
 def total(rows: FloatArray) -> FloatArray:
     """Return the sum of the rows, one after the other: the same bits for any number of sets."""
+    if rows.size <= SHORT * len(rows):
+        return np.asarray(np.add.accumulate(rows)[-1])
     return np.asarray(reduce(np.add, rows))

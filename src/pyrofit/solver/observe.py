@@ -49,19 +49,20 @@ def observe(
     sets
         Number of parameter sets.
     """
-    times = {n: np.repeat(r.time_s[None], sets, axis=0) for n, r in requests.items()}
-    if experiment.derived("shown as they are", _as_they_are):
-        return run(None, {n: r.at(times[n]) for n, r in requests.items()})
-    shifted = {
-        n: r.at(times[n] - _of(experiment, n, "delay_s", values)) for n, r in requests.items()
+    every = {
+        n: r.alone if sets == 1 else r.at(r.time_s[None].repeat(sets, axis=0))
+        for n, r in requests.items()
     }
+    if experiment.derived("shown as they are", _as_they_are):
+        return run(None, every)
+    shifted = {n: r.at(r.time_s - _of(experiment, n, "delay_s", values)) for n, r in every.items()}
     spread = np.full(sets, value_of(experiment.front.spread, values))
     runs = _mean_over_surface(spread, experiment.front.profile, shifted, run)
     signals = {
         name: curve + _of(experiment, name, "offset", values)
         for name, curve in runs.signals.items()
     }
-    return replace(runs, signals=signals)
+    return runs._replace(signals=signals)
 
 
 def _as_they_are(experiment: SlabExperiment) -> bool:

@@ -115,11 +115,13 @@ def _work_of(case: Case, asked: Mapping[str, Request], numerics: Numerics) -> _W
         (output, follows_of(r), r.average_s, r.time_s.shape[1])
         for output, r in zip(outputs, requests, strict=True)
     )
-    ends = [r.time_s.max(axis=1) + 0.5 * r.average_s for r in requests]
+    ends = [r.end_s for r in requests]
     at = requests[0].time_s if len(requests) == 1 else np.hstack([r.time_s for r in requests])
-    network = case.description.network._replace(burns=HEAT in outputs)
+    if HEAT in outputs:
+        network = case.description.network._replace(burns=True)
+        case = case._replace(description=case.description._replace(network=network))
     return _Work(
-        case._replace(description=case.description._replace(network=network)),
+        case,
         numerics,
         arrays.End(reduce(np.maximum, ends), EARLY.issuperset(outputs)),
         _asked(signals),
@@ -235,7 +237,7 @@ def _runs(
     """Return the results of all sets."""
     status = outcome[:, 0].astype(np.int64)
     failed = status > UNBURNT
-    if failed.any():
+    if np.count_nonzero(failed):
         signals[failed] = np.nan
     begin = work.asked.begin.tolist()
     curves = {

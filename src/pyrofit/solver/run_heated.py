@@ -66,14 +66,15 @@ def heat(
         np.empty((counts[1], sets, asked)),
         np.empty((sets, asked)),
     )
-    for longest_rise in np.unique(step):
+    for longest_rise in sorted(set(step.tolist())):
         order = np.flatnonzero(step == longest_rise)
         for group in _groups((lags, start, network, burning), order, sets):
             *parts, heats = group.parts
             in_lanes = tga((0,) * group.width, programs, *parts, longest_rise, heats)
             for all_sets, lanes in zip(found, in_lanes, strict=True):
                 # From (points, ..., lanes) to (..., sets, points).
-                all_sets[..., group.sets, :] = np.moveaxis(lanes, 0, -1)[..., : group.sets.size, :]
+                turned = lanes.transpose(*range(1, lanes.ndim), 0)
+                all_sets[..., group.sets, :] = turned[..., : group.sets.size, :]
     return found
 
 

@@ -8,7 +8,18 @@ from pyrofit.model.base import value_of
 from pyrofit.model.slab import SlabExperiment
 from pyrofit.model.slab_faces import Flame, Side
 from pyrofit.model.time_table import OverTime, TimeTable
-from pyrofit.solver.arrays import FLAME, FLUX, LIT, OXYGEN, TIME, FloatArray, Value, Values
+from pyrofit.solver.arrays import (
+    BACK_H,
+    FLAME,
+    FLUX,
+    FRONT_H,
+    LIT,
+    OXYGEN,
+    TIME,
+    FloatArray,
+    Value,
+    Values,
+)
 from pyrofit.solver.lower_property import stack
 
 Point = tuple[float, bool]
@@ -25,22 +36,15 @@ def lower_schedule(experiment: SlabExperiment, values: Values, sets: int) -> Flo
     losses = value_of(back.loss_factor, values)
     rows = [front.flux_W_m2, *_temperatures_and_h(front), *_temperatures_and_h(back)]
     points = _points([row for row in rows if isinstance(row, TimeTable)])
-    q, h, gas, wall, h_back, gas_back, wall_back = (_row(row, points, values, sets) for row in rows)
-    schedule = np.stack(
-        [
-            stack([t for t, _ in points], sets),
-            value_of(front.flux_factor, values) * q,
-            np.maximum(h + value_of(front.h_change_W_m2K, values), 0.0),
-            gas,
-            wall,
-            losses * np.maximum(h_back + value_of(back.h_change_W_m2K, values), 0.0),
-            gas_back,
-            wall_back,
-            np.zeros(q.shape),
-            np.ones(q.shape),
-            value_of(experiment.oxygen, values) * np.ones(q.shape),
-        ]
-    )
+    of_rows = [value for row in rows for value in _row(row, points, values)]
+    last = [value for value in (0.0, 1.0, value_of(experiment.oxygen, values)) for _ in points]
+    every = stack([*(t for t, _ in points), *of_rows, *last], sets)
+    schedule = every.reshape(-1, len(points), sets)
+    schedule[FLUX] *= value_of(front.flux_factor, values)
+    for row, side in ((FRONT_H, front), (BACK_H, back)):
+        changed = schedule[row] + value_of(side.h_change_W_m2K, values)
+        schedule[row] = np.maximum(changed, 0.0)
+    schedule[BACK_H] *= losses
     flame = experiment.burning()
     return schedule if flame is None else _with_flame(schedule, flame, values)
 
@@ -81,12 +85,12 @@ def _points(tables: Sequence[TimeTable]) -> list[Point]:
     return [(t, before) for t in times for before in ((True, False) if t in steps else (False,))]
 
 
-def _row(given: OverTime, points: Sequence[Point], values: Values, sets: int) -> FloatArray:
-    """Return a quantity at the points, shape (points, sets)."""
+def _row(given: OverTime, points: Sequence[Point], values: Values) -> list[Value]:
+    """Return a quantity at the points."""
     if not isinstance(given, TimeTable):
-        return stack([value_of(given, values)] * len(points), sets)
+        return [value_of(given, values)] * len(points)
     own = [value_of(value, values) for value in given.value]
-    return stack([_at(point, given.time_s, own) for point in points], sets)
+    return [_at(point, given.time_s, own) for point in points]
 
 
 def _at(point: Point, times: Sequence[float], own: Sequence[Value]) -> Value:
