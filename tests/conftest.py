@@ -84,11 +84,13 @@ def class_of(path: Path) -> str | None:
 
 
 def in_part(items: list[pytest.Item], part: tuple[int, int]) -> list[pytest.Item]:
-    """Return items without those of the class `long` whose file is not in a part."""
+    """Return items without the long ones whose file is not in a part."""
     k, n = part
-    files = sorted({item.path for item in items if class_of(item.path) == "long"})
+    long = [i for i in items if class_of(i.path) == "long" or i.get_closest_marker("long")]
+    files = sorted({item.path for item in long})
     others = {path for i, path in enumerate(files) if i % n != k - 1}
-    return [item for item in items if item.path not in others]
+    dropped = {item for item in long if item.path in others}
+    return [item for item in items if item not in dropped]
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
