@@ -5,6 +5,7 @@ BLAS and LAPACK choose their code by the processor. Here one index runs in Pytho
 ones take long.
 """
 
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -15,6 +16,8 @@ from pyrofit.numerics.functions import Floats, log
 _SWEEPS = 40
 """Sweeps of Jacobi's rotations at most; ten are usual."""
 _EPS = float(np.finfo(float).eps)
+_FEW = 24
+"""Rows up to which a system of equations is solved row by row in Python."""
 _SMALL = 1e-140
 """Squares of smaller numbers lose digits."""
 
@@ -104,8 +107,38 @@ def solve(a: Floats, b: Floats) -> Floats:
     numpy.linalg.LinAlgError
         The matrix is not positive definite.
     """
+    if b.ndim == 1 and b.size <= _FEW:
+        return np.array(_solved(a.tolist(), b.tolist()))
     left = cholesky(a)
     return solve_upper(left.T, solve_lower(left, b))
+
+
+def _solved(a: list[list[float]], b: list[float]) -> list[float]:
+    """Return x of A x = b: of few rows, numbers of Python are faster than arrays."""
+    left: list[list[float]] = []
+    for i, own in enumerate(a):
+        row: list[float] = []
+        for value, other in zip(own[: i + 1], [*left, row], strict=True):
+            for p, q in zip(row, other, strict=False):
+                value -= p * q
+            row.append(value / other[-1] if other is not row else _root(value))
+        left.append(row)
+    x = b.copy()
+    for i, row in enumerate(left):
+        for k in range(i):
+            x[i] -= row[k] * x[k]
+        x[i] /= row[i]
+    for i in reversed(range(len(x))):
+        x[i] /= left[i][i]
+        for k in range(i):
+            x[k] -= left[i][k] * x[i]
+    return x
+
+
+def _root(pivot: float) -> float:
+    if not pivot > 0.0:
+        raise np.linalg.LinAlgError("Matrix is not positive definite")
+    return math.sqrt(pivot)
 
 
 def inverse(a: Floats) -> Floats:
