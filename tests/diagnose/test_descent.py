@@ -200,6 +200,6 @@ def test_refreshed_derivatives_are_those_at_the_end() -> None:
     exact = 120.0 * np.array([[-20.0 * u, 10.0], [-1.0, 0.0]])
     again = refreshed(model, end)
     assert again.jacobian == pytest.approx(exact, rel=1e-3)
-    assert again.fresh
+    assert again.order == 2
     assert again.x is end.x
     assert refreshed(model, again) is again

@@ -115,7 +115,9 @@ def descended(likelihood: Likelihood, noise: Sequence[NoiseModel], x: FloatArray
     """Return the fit under another noise, from x, with derivatives at its end."""
     under = replace(likelihood, noise=tuple(noise))
     found = under.descend(x)
-    return replace(found, slopes=under.jacobian(found.x, found.residuals), fresh=True)
+    if found.order:
+        return found
+    return replace(found, slopes=under.jacobian(found.x, found.residuals), order=2)
 
 
 def aicc(chi2: float, parameters: int, points: float) -> float:

@@ -3,9 +3,8 @@
 from dataclasses import dataclass, field
 
 from pyrofit.estimate.bounded_least_squares import (
+    FIRST_RADIUS,
     LIKE_PARABOLA,
-    MOST_REFUSED,
-    MOST_REFUSED_UPDATED,
     MOST_STEPS,
     NEAR,
     RIDGE,
@@ -28,10 +27,8 @@ class Settings:
     """Step in x of a central difference."""
     most_steps: int = MOST_STEPS
     """Steps of a descent at most."""
-    most_refused: int = MOST_REFUSED
-    """Refused steps in a row, each with ten times the damping, before a descent ends."""
-    most_refused_updated: int = MOST_REFUSED_UPDATED
-    """Refused steps in a row with updated derivatives, before these are made anew."""
+    first_radius: float = FIRST_RADIUS
+    """Length of the first step at most, in search ranges."""
     converged_gain: float = 0.01
     """A descent ends where the next step promises less of chi-square."""
     ridge: float = RIDGE

@@ -1,8 +1,9 @@
-"""Least squares from a start: Levenberg and Marquardt with Broyden's updates, within limits.
+"""Least squares from a start: Gauss and Newton's steps in a trust region, within limits.
 
-Marquardt (1963, doi 10.1137/0111030); Broyden (1965, doi 10.1090/S0025-5718-1965-0198670-6). A
-step costs one simulation instead of one per parameter; the derivatives are made anew where the
-updated ones lead nowhere.
+Levenberg (1944, doi 10.1090/qam/10666) with the radius of Moré (1978, doi 10.1007/BFb0067700).
+Between derivatives by differences these are updated (Broyden 1965,
+doi 10.1090/S0025-5718-1965-0198670-6): a step then costs one simulation instead of one per
+parameter. They are made anew where the updated ones mislead, or lead nowhere.
 """
 
 from collections.abc import Callable, Sequence
@@ -16,10 +17,20 @@ from pyrofit.solver.arrays import FloatArray
 
 MOST_STEPS = 80
 """Steps at most."""
-MOST_REFUSED = 8
-"""Refused steps in a row, each with ten times the damping, before a descent ends."""
-MOST_REFUSED_UPDATED = 2
+FIRST_RADIUS = 0.5
+"""Length of a step at most, in search ranges, before steps have shown how far to trust them."""
+SHRINK, GROW = 0.5, 2.5
+"""The next radius is so many times the length of a step that fell short, or as promised."""
+SHORT, FULL = 0.25, 0.7
+"""Share of the promised fall below which a step fell short, and above which it is as promised."""
+MISLED = 0.1
+"""Share of the promised fall below which updated derivatives are made anew."""
+MOST_REFUSED = 1
 """Refused steps in a row with updated derivatives, before these are made anew."""
+NEAREST, FARTHEST = 0.75, 1.3
+"""A step is as long as the radius if its length over it lies within these."""
+MOST_LENGTHS = 15
+"""Dampings tried for a step of that length."""
 RIDGE = 1e-6
 """Added to the curvature, so that a parameter without influence does not move."""
 NEAR = 50.0
@@ -32,28 +43,22 @@ LIKE_PARABOLA = 0.2
 class Fit:
     """Where a descent ended: chi-square, x, whitened residuals and their derivatives there.
 
-    chi2 counts known values, too; ``slopes`` are the derivatives, made at x only where they are
-    ``fresh``, and there of second order where they are ``exact``. A descent that ``returned`` ended
-    on its way to a known fit.
+    chi2 counts known values, too; ``slopes`` are the derivatives, made at x with differences of the
+    ``order``, or of order 0: made elsewhere and updated. A descent that ``returned`` ended on its
+    way to a known fit.
     """
 
     chi2: float
     x: FloatArray
     residuals: FloatArray
     slopes: FloatArray | Columns
-    fresh: bool = True
+    order: int = 2
     returned: bool = False
-    exact: bool = True
 
     def __post_init__(self) -> None:
         """Keep the derivatives without zeros: a search has hundreds of fits."""
         if not isinstance(self.slopes, Columns):
             object.__setattr__(self, "slopes", Columns.of(self.slopes))
-
-    @property
-    def order(self) -> int:
-        """Order of the derivatives, 0 where they were made elsewhere and updated."""
-        return 2 if self.exact and self.fresh else int(self.fresh)
 
     @property
     def jacobian(self) -> FloatArray:
@@ -67,7 +72,7 @@ class Fit:
         It does if chi-square is near that of the fit, and near the parabola about it.
         """
         found = chi2 - self.chi2
-        if not self.fresh or not 0.0 < found < NEAR:
+        if self.order == 0 or not 0.0 < found < NEAR:
             return False
         parabola = self.residuals + linear.product(self.jacobian, x - self.x)
         rise = linear.dot(parabola, parabola) - self.chi2
@@ -83,10 +88,10 @@ def minimise(
     begin: FloatArray | None = None,
     fixed: int | None = None,
     idle: Sequence[int] = (),
+    order: int = 2,
     known: Fit | None = None,
     most_steps: int = MOST_STEPS,
-    most_refused: int = MOST_REFUSED,
-    most_refused_updated: int = MOST_REFUSED_UPDATED,
+    first_radius: float = FIRST_RADIUS,
     ridge: float = RIDGE,
 ) -> Fit:
     """Minimise the sum of squares of residuals over x in [0, 1].
@@ -100,69 +105,80 @@ def minimise(
     x
         Start, shape (parameters,); it is brought within the limits.
     converged_gain
-        The descent ends where fresh derivatives promise a smaller fall of the sum.
+        The descent ends where fresh derivatives promise a smaller fall of the sum, also by a step
+        of the first radius.
     begin
         Derivatives to begin with, if some are at hand.
     fixed
         Position of a parameter that keeps its value.
     idle
         Positions of parameters without influence, which keep their values.
+    order
+        Order of the differences of ``jacobian``.
     known
         A fit at hand: a descent that leads there ends early.
-    most_steps, most_refused, most_refused_updated, ridge
+    most_steps, first_radius, ridge
         As the constants of this module say.
     """
     x = np.clip(x, 0.0, 1.0)
     r = residuals(x)
-    fresh = begin is None
+    chi2, fresh = linear.dot(r, r), begin is None
     held = [] if fixed is None else [fixed]
     moving = [i for i in range(x.size) if i not in idle]
     whole = _without(held, jacobian(x, r)) if begin is None else begin
-    J, bent = _columns(whole, moving), None
-    damping, refused, returned = 1e-3, 0, False
+    J = _columns(whole, moving)
+    square = linear.gram(J)
+    radius, damping, refused = first_radius, 0.0, 0
+    tried, returned = np.inf, False
     for _ in range(most_steps):
-        bent = _bend(J, r) if bent is None else bent  # a refused step changes neither
-        step, damped = np.zeros(x.size), damping * 10.0**refused
-        step[moving], promised = _step(*bent, x[moving], damped, ridge)
-        step[held] = 0.0
-        gained = -1.0
+        slope = linear.product(J.T, r)
+        taken, promised, damping = _step(square, slope, x[moving], radius, damping, ridge)
+        length = linear.norm(taken)
         if promised > converged_gain:
+            step = np.zeros(x.size)
+            step[moving] = taken
+            step[held] = 0.0
             ahead = np.clip(x + step, 0.0, 1.0)  # a rate rounded below zero is no rate
             there = residuals(ahead)
-            gained = linear.dot(r, r) - linear.dot(there, there)
-        if gained > 0.0:
-            taken = step[moving]
-            missed = there - r - linear.product(J, taken)
-            J, bent = J + np.outer(missed, taken) / linear.dot(taken, taken), None
-            damping = _damping(damped, gained / promised)
-            x, r, fresh, refused = ahead, there, False, 0
-            returned = known is not None and known.leads_here(x, linear.dot(r, r))
-        if returned:
-            break
-        if gained > converged_gain:
-            continue
-        is_refused = gained <= 0.0 and promised > converged_gain
-        if is_refused and refused < (most_refused if fresh else most_refused_updated):
-            refused += 1
-        elif not fresh:
-            whole, fresh = _without(held, jacobian(x, r)), True
-            J, bent, refused = _columns(whole, moving), None, 0
-        else:
-            break
+            fallen = linear.dot(there, there)
+            gained = chi2 - fallen
+            radius = _radius(radius, length, gained / promised)
+            updated, refused = not fresh, refused + 1
+            if gained > 0.0:
+                missed = (there - r - linear.product(J, taken)) / linear.dot(taken, taken)
+                square = _updated(square, linear.product(J.T, missed), missed, taken)
+                J += np.outer(missed, taken)
+                x, r, chi2, fresh, refused = ahead, there, fallen, False, 0
+                returned = known is not None and known.leads_here(x, chi2)
+            if returned:
+                break
+            if gained > converged_gain and not (updated and gained < MISLED * promised):
+                continue
+            if updated and 0 < refused <= MOST_REFUSED:
+                continue
+        if not fresh:
+            whole, fresh, refused = _without(held, jacobian(x, r)), True, 0
+            J = _columns(whole, moving)
+            square = linear.gram(J)
+        elif promised <= converged_gain:
+            if length < NEAREST * radius or chi2 > tried - converged_gain:
+                break
+            tried, radius = chi2, first_radius  # a shorter step promises less
     whole = whole.copy()
     whole[:, moving] = J
-    return Fit(linear.dot(r, r), x, r, whole, fresh, returned)
+    return Fit(chi2, x, r, whole, order if fresh else 0, returned)
 
 
-def _damping(damping: float, reached: float) -> float:
-    """Return the next damping from the share of the promised fall that a step reached."""
-    factor = 0.2 if reached > 0.5 else 1.0 if reached > 0.1 else 5.0
-    return float(np.clip(factor * damping, 1e-6, 1e3))
+def _radius(radius: float, length: float, reached: float) -> float:
+    """Return the next radius from the share of the promised fall that a step reached."""
+    if reached < SHORT:
+        return SHRINK * min(length, radius)
+    return max(radius, GROW * length) if reached > FULL else radius
 
 
 def _columns(jacobian: FloatArray, moving: list[int]) -> FloatArray:
-    """Return the derivatives by the moving parameters."""
-    return jacobian if len(moving) == jacobian.shape[1] else jacobian.take(moving, axis=1)
+    """Return the derivatives by the moving parameters, a new array."""
+    return jacobian.take(moving, axis=1)
 
 
 def _without(held: list[int], jacobian: FloatArray) -> FloatArray:
@@ -171,19 +187,45 @@ def _without(held: list[int], jacobian: FloatArray) -> FloatArray:
     return jacobian
 
 
-def _bend(J: FloatArray, r: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return J^T J and J^T r."""
-    return linear.gram(J), linear.product(J.T, r)
+def _updated(
+    square: FloatArray, along: FloatArray, missed: FloatArray, taken: FloatArray
+) -> FloatArray:
+    """Return (J + m s^T)^T (J + m s^T) from J^T J, J^T m, m and s."""
+    both = np.outer(along, taken)
+    return np.asarray(square + both + both.T + linear.dot(missed, missed) * np.outer(taken, taken))
 
 
 def _step(
-    bend: FloatArray, slope: FloatArray, x: FloatArray, damping: float, ridge: float
-) -> tuple[FloatArray, float]:
-    """Return the best damped step within the limits, and the fall of chi-square it promises.
+    square: FloatArray,
+    slope: FloatArray,
+    x: FloatArray,
+    radius: float,
+    damping: float,
+    ridge: float,
+) -> tuple[FloatArray, float, float]:
+    """Return the best step of a length within the limits, the fall it promises, and its damping.
 
     The least of 2 g^T s + s^T (J^T J + D) s for limits of s (Stark and Parker 1995, Comput. Stat.
-    10, 129): a step that is cut off at the limits one by one may promise next to nothing.
+    10, 129): a step that is cut off at the limits one by one may promise next to nothing. D is the
+    least damping, equal for all parameters, that makes the step as short as the radius.
     """
-    damped = bend + np.diag(damping * np.diag(bend) + ridge)
-    step = fitting.within_limits(damped, slope, -x, 1.0 - x)
-    return step, -2.0 * linear.dot(slope, step) - linear.dot(step, linear.product(bend, step))
+
+    def damped(by: float) -> FloatArray:
+        raised = square + np.diag(np.full(slope.size, by + ridge))
+        return fitting.within_limits(raised, slope, -x, 1.0 - x)
+
+    # 1/length is nearly a line over the damping; of large dampings its slope is 1/|g|.
+    by, before = damping, (-1.0, 0.0)
+    for _ in range(MOST_LENGTHS):
+        step = damped(by)
+        length = linear.norm(step)
+        is_short = length <= FARTHEST * radius
+        if is_short and (length >= NEAREST * radius or by == 0.0 or length == 0.0):
+            break
+        rise = (1.0 / length - before[1]) / (by - before[0])
+        if before[0] < 0.0 or rise <= 0.0:
+            rise = 1.0 / linear.norm(slope)
+        before = by, 1.0 / length
+        by = max(by + (1.0 / radius - before[1]) / rise, 0.0)
+    fall = -2.0 * linear.dot(slope, step) - linear.dot(step, linear.product(square, step))
+    return step, fall, by

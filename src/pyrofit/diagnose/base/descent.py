@@ -32,7 +32,7 @@ def descend_chi_square(
     start = model.with_idle_known(x, fixed)
 
     def made() -> Fit:
-        end = minimise(
+        return minimise(
             model.residuals,
             partial(model.jacobian, order=1),
             start,
@@ -40,13 +40,12 @@ def descend_chi_square(
             begin=jacobian,
             fixed=fixed,
             idle=model.idle,
+            order=1,
             known=known,
             most_steps=settings.most_steps,
-            most_refused=settings.most_refused,
-            most_refused_updated=settings.most_refused_updated,
+            first_radius=settings.first_radius,
             ridge=settings.ridge,
         )
-        return replace(end, exact=False)
 
     journal = model.base.journal
     if journal is None:
@@ -62,7 +61,7 @@ def _fit_at(model: Model, fixed: int | None, x: FloatArray) -> Fit:
     jacobian = model.jacobian(x, residuals, order=1)
     if fixed is not None:
         jacobian[:, fixed] = 0.0
-    return Fit(linear.dot(residuals, residuals), x, residuals, jacobian, exact=False)
+    return Fit(linear.dot(residuals, residuals), x, residuals, jacobian, order=1)
 
 
 def refreshed(model: Model, fit: Fit, order: int = 2) -> Fit:
@@ -70,4 +69,4 @@ def refreshed(model: Model, fit: Fit, order: int = 2) -> Fit:
     if fit.order >= order:
         return fit
     slopes = model.jacobian(fit.x, fit.residuals, order)
-    return replace(fit, slopes=slopes, fresh=True, exact=order == 2)
+    return replace(fit, slopes=slopes, order=order)
