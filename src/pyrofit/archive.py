@@ -31,7 +31,7 @@ from pyrofit.stages.reading import MACFP
 from pyrofit.steps import known_steps
 
 _PAGES = ("study.json", "provenance.json", "report.html")
-_LEFT_OUT = ("by_hand", "logs", "benchmarks", "running", "unfinished")
+_LEFT_OUT = ("by_hand", "inputs", "logs", "benchmarks", "running", "unfinished")
 """Folders of results that differ from run to run."""
 
 

@@ -64,8 +64,8 @@ def source_fingerprint(*modules: str) -> str:
 
     Whatever they import of their own packages, of pyrofit and of the packages ``pyrofit_*`` counts
     as well, at whatever distance. So do the files beside it that are no Python. Comments and
-    docstrings do not count. Snakemake does not notice an edit to an imported package: rules carry
-    this as a parameter.
+    docstrings do not count. Snakemake does not notice an edit to an imported package: this is among
+    the inputs of a rule.
 
     Parameters
     ----------

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from pyrofit.cli.common import add_step, open_study
+from pyrofit.cli.common import add_step, find_study, open_study
 
 
 def add(commands: Any) -> None:
@@ -71,14 +71,13 @@ def _export_other(given: argparse.Namespace) -> None:
 
 
 def _export_fds(given: argparse.Namespace) -> None:
-    from pyrofit.config import read_study
     from pyrofit.results.files import Results
     from pyrofit_exchange.fds.export import MATERIAL, export
     from pyrofit_exchange.fds.versions import version_of
     from pyrofit_exchange.sets import parameter_set
 
     version = version_of(given.fds_version)
-    study = read_study(given.study)
+    study = find_study(given)
     results = Results(given.results or Path("results") / study.name)
     chosen = parameter_set(study, results, given.set, given.study.parent)
     folder = given.out or results.fds("")
@@ -89,12 +88,11 @@ def _export_fds(given: argparse.Namespace) -> None:
 
 def _check_fds(given: argparse.Namespace) -> None:
     from pyrofit.external.fds import find_fds
-    from pyrofit.results import dependencies
     from pyrofit_exchange import fds_page
     from pyrofit_exchange.fds.check import check_decks
     from pyrofit_exchange.sets import parameter_set
 
-    study, results = open_study(given, dependencies.presentation)
+    study, results = open_study(given)
     chosen = parameter_set(study, results, given.set, given.study.parent)
     check_decks(study, chosen, find_fds(), results.fds(""), _tell, given.limit)
     fds_page.draw_and_write(study, results)

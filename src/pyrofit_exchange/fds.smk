@@ -4,6 +4,11 @@ FDS_NEEDS = [KINETICS_FOR_IMP, results.imp("summary.csv"), STARTED, IDENTIFICATI
 rule fds_export:
     input:
         FDS_NEEDS,
+        plan=plan(
+            "fds_export",
+            dependencies.presentation,
+            "pyrofit_exchange.fds.export",
+        ),
     output:
         results.fds("{version}/material.fds"),
         results.fds("{version}/export.json"),
@@ -12,15 +17,12 @@ rule fds_export:
     wildcard_constraints:
         version=r"6\.\d+",
     params:
-        study=STUDY,
         folder=lambda wildcards, output: os.path.dirname(output[0]),
-        digest=digest(dependencies.presentation(study)),
-        source=source_fingerprint("pyrofit_exchange.fds.export"),
     message:
         "The fitted material for FDS {wildcards.version}: {output[0]}"
     shell:
         '"$PYROFIT_PYTHON" -P -m pyrofit'
-        " export fds {params.study} --fds-version {wildcards.version}"
+        " export fds {input.plan} --fds-version {wildcards.version}"
         " --out {params.folder} --log {log}"
 
 
@@ -34,6 +36,7 @@ rule fds:
 rule fds_check_run:
     input:
         FDS_NEEDS,
+        plan=plan("fds_check", dependencies.presentation, "pyrofit_exchange.fds.check"),
     output:
         results.fds("check.json"),
         results.fds("check.md"),
@@ -42,16 +45,12 @@ rule fds_check_run:
     benchmark:
         benchmark_of("fds_check")
     params:
-        study=STUDY,
-        digest=digest(dependencies.presentation(study)),
-        source=source_fingerprint("pyrofit_exchange.fds.check"),
         # Another FDS, or none, is another proof.
         fds=os.environ.get("PYROFIT_FDS") or shutil.which("fds") or "none",
     message:
         "FDS beside pyrofit: {output[1]}"
     shell:
-        '"$PYROFIT_PYTHON" -P -m pyrofit'
-        " fds-check --study {params.study} --digest {params.digest} --log {log}"
+        '"$PYROFIT_PYTHON" -P -m pyrofit fds-check --study {input.plan} --log {log}'
 
 
 rule fds_check:

@@ -39,7 +39,7 @@ def test_help_of_a_step_explains_its_options(name: str, capsys: pytest.CaptureFi
         cli.main([name, "--help"])
     assert ended.value.code == 0
     shown = capsys.readouterr().out
-    for option in ("--study", "--results", "--digest", "--log"):
+    for option in ("--study", "--results", "--log"):
         assert option in shown
 
 
@@ -67,14 +67,6 @@ def test_step_before_its_time_says_what_is_missing(
     said = capsys.readouterr().err
     assert "this result is missing; run the workflow to make it" in said
     assert "Traceback" not in said
-
-
-def test_step_refuses_a_study_that_changed_since_it_was_planned(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    given = ["collect", "--study", str(SMOKE), "--results", str(tmp_path), "--digest", "0"]
-    assert cli.main(given) == 2
-    assert "the study changed while the workflow ran; run it again" in capsys.readouterr().err
 
 
 def test_unknown_cost_is_told_with_the_known_ones(

@@ -34,7 +34,7 @@ def test_page_of_commands_has_options_that_are_known_late() -> None:
     page = (ROOT / "docs" / "commands.md").read_text(encoding="utf-8")
     assert "- `--gasification` `CSV`: " in page
     assert page.count("- `--results` `RESULTS`: ") == 1
-    assert "Also `--study`, `--results`, `--digest`, `--log`." in page
+    assert "Also `--study`, `--results`, `--log`." in page
     assert "## `pyrofit data doctor`" in page
     assert "## `pyrofit data`\n" not in page
 

@@ -140,22 +140,6 @@ def test_options_are_part_of_what_a_step_depends_on(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", WITH_OPTIONS)
-def test_other_options_than_those_of_the_workflow_are_refused_in_its_name(
-    name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    step = known_steps()[name]
-    part = inputs_of(name).parts(smoke())[:1]
-    if {*OTHER[name]} <= {*inputs_of(name).of_parts}:
-        return  # they tell which parts there are; no part depends on them
-    planned = digest(slice_of(read_study(SMOKE), name, *part))
-    of_part = [f"--{step.part}", *part] if part else []
-    results = ["--results", str(tmp_path / "smoke")]
-    command = [name, str(SMOKE), "--digest", planned, *results, *of_part]
-    assert main([*command, *given(name)]) == 2
-    assert f"'{name}' depends on the change" in capsys.readouterr().err
-
-
-@pytest.mark.parametrize("name", WITH_OPTIONS)
 def test_results_made_with_other_options_are_refused(name: str, tmp_path: Path) -> None:
     results = Results(tmp_path)
     study, other = smoke(), smoke(**{name: OTHER[name]})

@@ -382,12 +382,6 @@ COMMANDS = [
         ("error: study.yaml: study 'small' has no cost 'RMES'. Did you mean 'RMSE'?",),
     ),
     Case(
-        "unknown cost with a digest",
-        IMP.replace("RMSE", "RMES") + " --digest 0",
-        nothing,
-        ("error: study.yaml: study 'small' has no cost 'RMES'. Did you mean 'RMSE'?",),
-    ),
-    Case(
         "unknown table",
         "show --study study.yaml --name tabel4",
         nothing,
@@ -412,7 +406,7 @@ COMMANDS = [
     ),
     Case(
         "kinetics that the study does not have",
-        KINETICS + " --digest 0",
+        KINETICS,
         put(
             kinetics=GONE,
             imp__kinetics="described",
@@ -420,11 +414,5 @@ COMMANDS = [
             parameters__E_p__value=190,
         ),
         ("study 'small' has no kinetics stage; add `kinetics:` to it",),
-    ),
-    Case(
-        "study changed while the workflow ran",
-        COLLECT + " --digest 0",
-        nothing,
-        ("error: study.yaml: the study changed while the workflow ran; run it again",),
     ),
 ]

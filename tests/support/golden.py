@@ -10,8 +10,8 @@ GOLDEN = Path(__file__).parents[1] / "golden"
 WRITE = bool(os.environ.get("PYROFIT_WRITE_GOLDEN"))
 KINDS = {".csv", ".gz", ".json", ".md", ".svg", ".yaml"}
 """Tables, histories, records and figures; pages and pictures are made of these."""
-OF_THE_RUN = {"benchmarks", "logs", "running", "provenance.json", "study.json"}
-"""They tell when and where, or are the description."""
+OF_THE_RUN = {"benchmarks", "inputs", "logs", "running", "provenance.json", "study.json"}
+"""They tell when, where and by what code, or are the description."""
 AVX2 = {
     "NPY_DISABLE_CPU_FEATURES": "X86_V4 AVX512_ICL",
     "OPENBLAS_CORETYPE": "Haswell",

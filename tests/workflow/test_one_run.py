@@ -1,6 +1,5 @@
 """One run of a study at a time, of the study that it was started with."""
 
-import json
 import os
 import shutil
 import signal
@@ -13,11 +12,12 @@ import pytest
 from tiny import FIT, OWN_FILE, Project
 
 from pyrofit.errors import RUN
-from pyrofit.running.frozen import FROZEN
 from pyrofit.running.lock import end_run, start_run
+from pyrofit.running.plan import STUDY_OF_RUN
 
 FOLDER = "results/tiny/running"
 STUDY = "results/tiny/study.json"
+INPUTS = "results/tiny/inputs/kinetics.json"
 SERIES = "results/tiny/measurements/tga_own_mass_fraction.csv"
 SUMMARY = "results/tiny/measurements/summary.json"
 AS_A_JOB = ("--mode", "remote", "--target-jobs", "kinetics:", "--allowed-rules", "kinetics")
@@ -89,43 +89,27 @@ def as_job(
     shutil.copytree(untouched.root, tmp_path / "project")
     project = Project(tmp_path / "project")
     root = project.root / "results" / "tiny"
-    for name in (RUN, FROZEN):
+    for name in (RUN, STUDY_OF_RUN):
         monkeypatch.setenv(name, "")  # so that it is restored at the end
     start_run(root)
-    monkeypatch.delenv(FROZEN)
+    monkeypatch.delenv(STUDY_OF_RUN)
     yield project
     end_run(root)
 
 
-def digest_of(project: Project) -> str:
-    from pyrofit.config import digest
-
-    return digest(json.loads(project.read(STUDY)))
-
-
+@pytest.mark.parametrize("told", [STUDY, None], ids=["told", "not_told"])
 def test_job_of_a_cluster_computes_the_study_that_its_run_was_started_with(
-    as_job: Project, monkeypatch: pytest.MonkeyPatch
+    told: str | None, as_job: Project, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    fit, frozen = as_job.read(FIT), as_job.read(STUDY)
-    monkeypatch.setenv(FROZEN, f"{digest_of(as_job)} {STUDY}")
+    before = {name: as_job.read(name) for name in (FIT, STUDY, INPUTS)}
+    if told is not None:
+        monkeypatch.setenv(STUDY_OF_RUN, told)
     as_job.change("seed", 4)
     run = as_job.snakemake(*JOB)
     assert run.code == 0, run.said
     assert "Kinetics fitted" in run.said
-    assert as_job.read(FIT) == fit
-    assert as_job.read(STUDY) == frozen
-
-
-def test_job_of_a_cluster_that_does_not_know_its_run_refuses_an_edited_study(
-    as_job: Project,
-) -> None:
-    fit, frozen = as_job.read(FIT), as_job.read(STUDY)
-    as_job.change("seed", 4)
-    run = as_job.snakemake(*JOB)
-    assert run.code != 0
-    assert "mine/tiny.yaml: changed while the workflow runs: seed." in run.said
-    assert as_job.read(FIT) == fit
-    assert as_job.read(STUDY) == frozen
+    for name, content in before.items():
+        assert as_job.read(name) == content
 
 
 def test_job_of_a_run_that_is_over_removes_no_result(

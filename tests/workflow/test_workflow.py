@@ -125,6 +125,19 @@ def test_change_runs_its_dependents_again_and_no_other(
     assert project.plan() == jobs | showing(finished[1])
 
 
+def test_edit_that_is_taken_back_computes_nothing_again_beside_one_that_stays(
+    project: Project,
+) -> None:
+    inputs = "results/tiny/inputs/kinetics.json"
+    before = project.read(inputs)
+    project.change("seed", 4)
+    assert computing(project.plan()) == EVERYTHING
+    assert project.read(inputs) != before
+    project.change("title", "Another title")
+    assert computing(project.plan()) == set()
+    assert project.read(inputs) == before
+
+
 def test_change_on_the_command_line_counts_like_one_in_the_file(project: Project) -> None:
     jobs = project.plan("--config", 'imp={"repetitions": 3}')
     assert computing(jobs) == sceua(2) | GATHERED

@@ -18,7 +18,6 @@ def add_step(commands: Any, name: str, text: str, step: Step) -> argparse.Argume
     parser: argparse.ArgumentParser = commands.add_parser(name, help=text, description=said)
     parser.add_argument("--study", type=Path, required=True, help="study file (YAML or JSON)")
     parser.add_argument("--results", type=Path, help="results folder; default results/<name>")
-    parser.add_argument("--digest", help="checksum of the inputs, set by Snakemake")
     parser.add_argument("--log", type=Path, help="file that keeps a copy of the output")
     parser.set_defaults(step=step)
     return parser
@@ -28,7 +27,6 @@ def add_own_options(command: argparse.ArgumentParser, step: Step) -> None:
     """Add the options of a step that runs apart from the others, behind its own."""
     command.add_argument("--cores", type=cores, default=1, help="processes; default: 1")
     command.add_argument("--results", type=Path, help="results folder; default results/<name>")
-    command.add_argument("--digest", help="checksum of the inputs, set by Snakemake")
     command.add_argument("--log", type=Path, help="file that keeps a copy of the output")
     command.set_defaults(step=step)
 
@@ -59,24 +57,35 @@ def show(page: Any, study: Any, results: Any) -> None:
         print(line)
 
 
+def find_study(given: argparse.Namespace) -> Any:
+    """Return the study of a command.
+
+    Rules give the file of inputs that they were planned with. It names the study of the run, which
+    is then ``given.study``; otherwise the command is called ``by_hand``.
+    """
+    from pyrofit.config import read_study
+    from pyrofit.running.plan import named_study
+
+    planned = named_study(given.study)
+    given.by_hand = planned is None
+    given.study = planned or given.study
+    return read_study(given.study)
+
+
 def open_study(
-    given: argparse.Namespace,
-    slice_of: Callable[..., Any],
-    *arguments: Any,
-    change: Callable[[Any], Any] = lambda study: study,
+    given: argparse.Namespace, change: Callable[[Any], Any] = lambda study: study
 ) -> Any:
-    """Return study and results; refuse a study other than the one the caller described.
+    """Return study and results.
 
     ``change`` puts options of the command line into the study. Until the command ends, no other
     run of the study may start.
     """
-    from pyrofit.config import digest, read_study
     from pyrofit.config.expand.programs import externals, keeping_runs
     from pyrofit.external.scratch import sweep_scratch
     from pyrofit.results.files import Results
     from pyrofit.running.lock import job
 
-    study = read_study(given.study)
+    study = find_study(given)
     cost = getattr(given, "cost", None)
     if cost is not None and cost not in study.imp.costs:
         raise StudyError(
@@ -84,11 +93,6 @@ def open_study(
             + suggest(cost, study.imp.costs)
         )
     study = change(study)
-    if given.digest is not None and digest(slice_of(study, *arguments)) != given.digest:
-        raise StudyError(
-            f"{given.study}: the study changed while the workflow ran; run it again. "
-            f"'{given.command}' depends on the change"
-        )
     root = given.results or Path("results") / study.name
     given.until_end.enter_context(job(root))
     if externals(study):

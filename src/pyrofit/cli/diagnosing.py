@@ -17,21 +17,19 @@ def add(commands: Any) -> None:
 
 
 def _diagnose(given: argparse.Namespace) -> None:
-    from pyrofit.results import dependencies
     from pyrofit.stages import diagnose, measurements
 
-    study, results = open_study(given, dependencies.diagnose_slice)
-    if given.digest is None:  # by hand, without the workflow that has read the measurements
+    study, results = open_study(given)
+    if given.by_hand:  # by hand, without the workflow that has read the measurements
         measurements.prepare(study, results)
     diagnose.diagnose_study(study, results, lambda text: print(text, file=sys.stderr), given.cores)
-    if given.digest is None:
+    if given.by_hand:
         _diagnosis_page(given)
 
 
 def _diagnosis_page(given: argparse.Namespace) -> None:
-    from pyrofit.results import dependencies
     from pyrofit.show.diagnosis_page import draw_all, write_page
 
-    study, results = open_study(given, dependencies.presentation)
+    study, results = open_study(given)
     draw_all(results, study, given.cores)
     write_page(study, results)

@@ -52,34 +52,30 @@ def add(commands: Any) -> None:
 
 
 def _prepare(given: argparse.Namespace) -> None:
-    from pyrofit.results import dependencies
     from pyrofit.stages import measurements
 
-    for line in measurements.prepare(*open_study(given, dependencies.data_slice)):
+    for line in measurements.prepare(*open_study(given)):
         print(f"mass closure: {line}", file=sys.stderr)
 
 
 def _trial(given: argparse.Namespace) -> None:
-    from pyrofit.results import dependencies
     from pyrofit.stages import trial
 
-    study, results = open_study(given, dependencies.trial_slice)
+    study, results = open_study(given)
     for line in trial.trial(study, results, given.cores):
         print(line, file=sys.stderr)
 
 
 def _kinetics(given: argparse.Namespace) -> None:
-    from pyrofit.results import dependencies
     from pyrofit.stages import fit
 
-    fit.fit_kinetics(*open_study(given, dependencies.kinetics))
+    fit.fit_kinetics(*open_study(given))
 
 
 def _imp(given: argparse.Namespace) -> None:
-    from pyrofit.results import dependencies
     from pyrofit.stages import fit
 
-    study, results = open_study(given, dependencies.imp, given.cost, "sceua")
+    study, results = open_study(given)
     wrong = [n for n in given.repetition if not 0 <= n < study.imp.repetitions]
     if wrong:
         raise StudyError(
@@ -90,57 +86,50 @@ def _imp(given: argparse.Namespace) -> None:
 
 
 def _optimise(optimiser: str, given: argparse.Namespace) -> None:
-    from pyrofit.results import dependencies
     from pyrofit.stages import fit
 
-    study, results = open_study(given, dependencies.imp, given.cost, optimiser)
+    study, results = open_study(given)
     fit.optimise(study, results, given.cost, optimiser)
 
 
 def _descent(given: argparse.Namespace) -> None:
-    from pyrofit.results import dependencies
     from pyrofit.stages import fit
 
-    study, results = open_study(given, dependencies.imp, given.cost, "least_squares")
+    study, results = open_study(given)
     fit.descent(study, results, given.cost)
 
 
 def _collect(given: argparse.Namespace) -> None:
-    from pyrofit.results import dependencies
     from pyrofit.stages import fit
 
-    fit.collect(*open_study(given, dependencies.collect_slice))
+    fit.collect(*open_study(given))
 
 
 def _identify(given: argparse.Namespace) -> None:
-    from pyrofit.results import dependencies
     from pyrofit.stages import identify
 
     if given.stage == "kinetics":
-        identify.identify_kinetics(*open_study(given, dependencies.kinetics))
+        identify.identify_kinetics(*open_study(given))
     else:
-        identify.identify_imp(*open_study(given, dependencies.identify_slice))
+        identify.identify_imp(*open_study(given))
 
 
 def _isoconversional(given: argparse.Namespace) -> None:
-    from pyrofit.results import dependencies
     from pyrofit.stages import isoconversional, measurements
 
-    study, results = open_study(given, dependencies.isoconversional_slice)
-    if given.digest is None:  # by hand, without the workflow that has read the measurements
+    study, results = open_study(given)
+    if given.by_hand:  # by hand, without the workflow that has read the measurements
         measurements.prepare(study, results)
     isoconversional.analyse_masses(study, results, tell)
 
 
 def _predict(given: argparse.Namespace) -> None:
-    from pyrofit.results import dependencies
     from pyrofit.stages import predict
 
-    predict.predict_sets(*open_study(given, dependencies.validation_slice))
+    predict.predict_sets(*open_study(given))
 
 
 def _compare(given: argparse.Namespace) -> None:
-    from pyrofit.results import dependencies
     from pyrofit.stages import compare
 
-    compare.compare(*open_study(given, dependencies.compare_slice))
+    compare.compare(*open_study(given))

@@ -23,10 +23,9 @@ def add(commands: Any) -> None:
 
 
 def _show(given: argparse.Namespace) -> None:
-    from pyrofit.results import dependencies
     from pyrofit.show.sections import make_named, make_subject
 
-    study, results = open_study(given, dependencies.presentation)
+    study, results = open_study(given)
     if given.subject is not None:
         make_subject(given.subject, study, results)
     for name in given.name or ():
@@ -34,15 +33,13 @@ def _show(given: argparse.Namespace) -> None:
 
 
 def _report(given: argparse.Namespace) -> None:
-    from pyrofit.results import dependencies
     from pyrofit.show.report import write_report
 
-    write_report(*open_study(given, dependencies.presentation))
+    write_report(*open_study(given))
 
 
 def _archive(given: argparse.Namespace) -> None:
     from pyrofit.archive import write_archive
-    from pyrofit.results import dependencies
 
-    study, results = open_study(given, dependencies.presentation)
+    study, results = open_study(given)
     print(write_archive(study, results, given.given or [given.study], Path()))

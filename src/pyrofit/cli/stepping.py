@@ -65,7 +65,7 @@ def _run(step: Step, given: argparse.Namespace) -> None:
     study, results, part = _open(step, given)
     inputs = inputs_of(step.name)
     if part or not step.part:
-        if given.digest is None and inputs.reads == ("measurements",):
+        if given.by_hand and inputs.reads == ("measurements",):
             measurements.prepare(study, results)  # by hand, without the workflow that has read them
         compute = step.load("compute")
         try:
@@ -91,9 +91,8 @@ def _run(step: Step, given: argparse.Namespace) -> None:
 
 def _open(step: Step, given: argparse.Namespace) -> tuple[Any, Any, tuple[str, ...]]:
     """Return study with the options given, results and part."""
-    from pyrofit.results import dependencies
     from pyrofit.results.files import Results
-    from pyrofit.results.step import inputs_of, slice_of
+    from pyrofit.results.step import inputs_of
 
     part: tuple[str, ...] = () if getattr(given, "part", None) is None else (given.part,)
     own: list[Study] = []
@@ -108,12 +107,7 @@ def _open(step: Step, given: argparse.Namespace) -> tuple[Any, Any, tuple[str, .
             )
         return _with_options(study, step, given)
 
-    def depends(study: "Study") -> dict[str, Any]:
-        if step.part and not part:
-            return dependencies.presentation(study)
-        return slice_of(study, step.name, *part)
-
-    study, results = open_study(given, depends, change=asked)
+    study, results = open_study(given, change=asked)
     if study.steps != own[0].steps:
         results = Results(results.root, by_hand=step.name)
     return study, results, part

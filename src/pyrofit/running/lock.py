@@ -80,8 +80,15 @@ def end_run(root: Path, token: str | None = None) -> None:
 
 
 @contextlib.contextmanager
-def job(root: Path) -> Iterator[None]:
+def job(root: Path, by_hand: bool = False) -> Iterator[None]:
     """Count as a job within this context: of the run that the environment names, or of none.
+
+    Parameters
+    ----------
+    root
+        Results folder of the study.
+    by_hand
+        Whether this is no job of a run whatever the environment names.
 
     Raises
     ------
@@ -90,7 +97,7 @@ def job(root: Path) -> Iterator[None]:
     DataError
         The folder cannot be written.
     """
-    token = os.environ.get(RUN, "")
+    token = "" if by_hand else os.environ.get(RUN, "")
     path = root / FOLDER / f"job_{uuid.uuid4().hex}.json"
     _write(path, token)
     try:

@@ -23,22 +23,21 @@ if (
 ):  # before slow imports: Ctrl-C says one line from here on
     end_while_starting()
 
-from pyrofit.config import as_study, digest
+from pyrofit.config import as_study
 from pyrofit.config.expand.programs import externals, program_files
 from pyrofit.config.check.unmeasured import unmeasured
 from pyrofit.config.check.unusual import unusual_values
 from pyrofit.discovery import added, loaded
 from pyrofit.errors import PyrofitError
 from pyrofit.provenance import STUDY as STUDY_MODULES
-from pyrofit.provenance import source_fingerprint
 from pyrofit.results import dependencies
 from pyrofit.results.files import Results
 from pyrofit.results.kinetics import heats_shown
 from pyrofit.running import causes, shares
 from pyrofit.estimate.calls import calls_of_jobs
-from pyrofit.running.frozen import freeze, frozen_study
 from pyrofit.running.given import DEFAULT, study_of_files, from_workflow
 from pyrofit.running.lock import end_run, join_run, start_run
+from pyrofit.running.plan import InputFiles, study_of_run
 from pyrofit.running.terminal import FOR_USER, show_work, take_over
 from pyrofit.running.work import WorkDone
 from pyrofit.show.sections import FIGURES, SUBJECTS, TABLES
@@ -70,8 +69,9 @@ try:
         study = as_study(given.keys, given.source)
         check_measurements(study, given.source, macfp=False)
     else:  # a job of a cluster: the study file may have been edited since the start
-        study = frozen_study(given.keys, given.source)
+        study = study_of_run(given.keys)
     ROOT = Path("results") / study.name
+    plan = InputFiles(study, ROOT, as_they_are=not workflow.is_main_process)
     # A job of a cluster must share out as the process that submitted it.
     local = workflow.is_main_process and workflow.local_exec
     cores = workflow.resource_settings.cores if local else None
@@ -88,17 +88,12 @@ try:
         if not show_work(workflow.logger_manager.get_log_handlers(), work):
             logger.addHandler(work)
     elif not workflow.output_settings.dryrun:
-        freeze(study, ROOT / "study.json")
+        plan.begin()
 except PyrofitError as error:
     raise WorkflowError(str(error)) from None
 
-# The study as checked and completed, with the changes of --config. Every step reads this file, and
-# verifies by digest that its part of it did not change after the rule was planned.
-STUDY = ROOT / "study.json"
 results = Results(ROOT)
-# What the fits, and what the report, which states this fingerprint, are made by.
-FITS = source_fingerprint("pyrofit.stages.fit")
-SHOWS = source_fingerprint(*STUDY_MODULES)
+FITS = "pyrofit.stages.fit"
 COSTS = list(study.imp.costs)
 # Inputs of external programs, and the cores of their simultaneous runs.
 PROGRAM_FILES = list(program_files(study))
@@ -120,7 +115,7 @@ onstart:
             print(told, file=sys.stderr)
         for sentence in unusual_values(study):
             print(f"warning: {given.source}: {sentence}", file=sys.stderr)
-        freeze(study, STUDY)
+        plan.begin()
         if workflow.local_exec:
             end_with_jobs(ROOT)
             take_over(logger, workflow.output_settings, work)

@@ -5,18 +5,15 @@ rule archive:
         EVERYTHING,
         given=given.files,
         lock=[name for name in ["requirements.lock"] if os.path.exists(name)],
+        plan=plan("archive", dependencies.presentation, *STUDY_MODULES),
     output:
         ROOT / f"{study.name}.zip",
     log:
         log_of("archive"),
     localrule: True
-    params:
-        study=STUDY,
-        digest=digest(dependencies.presentation(study)),
-        source=SHOWS,
     message:
         "Archive: {output}"
     shell:
         '"$PYROFIT_PYTHON" -P -m pyrofit'
-        " archive --study {params.study} --digest {params.digest} --log {log}"
+        " archive --study {input.plan} --log {log}"
         " --given {input.given}"

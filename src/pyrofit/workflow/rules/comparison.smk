@@ -8,6 +8,7 @@ rule compare:
         OUTSIDE,
         results.imp("summary.csv"),
         STARTED,
+        plan=plan("compare", dependencies.compare_slice, "pyrofit.stages.compare"),
     output:
         COMPARED,
     log:
@@ -15,12 +16,7 @@ rule compare:
     benchmark:
         benchmark_of("compare")
     threads: RUNS_CORES
-    params:
-        study=STUDY,
-        digest=digest(dependencies.compare_slice(study)),
-        source=source_fingerprint("pyrofit.stages.compare"),
     message:
         "All sets of all optimisers under all costs"
     shell:
-        '"$PYROFIT_PYTHON" -P -m pyrofit'
-        " compare --study {params.study} --digest {params.digest} --log {log}"
+        '"$PYROFIT_PYTHON" -P -m pyrofit compare --study {input.plan} --log {log}'

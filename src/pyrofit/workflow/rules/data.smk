@@ -9,19 +9,14 @@ rule prepare:
     input:
         study.own_files,
         PROGRAM_FILES if study.is_synthetic else [],
+        plan=plan("prepare", dependencies.data_slice, "pyrofit.stages.measurements"),
     output:
         series=MEASUREMENTS,
         summary=results.measurements_summary,
     log:
         log_of("prepare"),
     localrule: True
-    params:
-        study=STUDY,
-        digest=digest(dependencies.data_slice(study)),
-        files=study.needs_macfp,
-        source=source_fingerprint("pyrofit.stages.measurements"),
     message:
         "Measured series into tidy tables, mass closure checked"
     shell:
-        '"$PYROFIT_PYTHON" -P -m pyrofit'
-        " prepare --study {params.study} --digest {params.digest} --log {log}"
+        '"$PYROFIT_PYTHON" -P -m pyrofit prepare --study {input.plan} --log {log}'

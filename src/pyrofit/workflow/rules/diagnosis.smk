@@ -4,6 +4,7 @@ DIAGNOSIS = results.diagnosis("diagnosis.json")
 rule diagnosis:
     input:
         MEASUREMENTS,
+        plan=plan("diagnosis", dependencies.diagnose_slice, "pyrofit.stages.diagnose"),
     output:
         DIAGNOSIS,
         results.diagnosis("curves.csv"),
@@ -12,15 +13,11 @@ rule diagnosis:
     benchmark:
         benchmark_of("diagnosis")
     threads: 2
-    params:
-        study=STUDY,
-        digest=digest(dependencies.diagnose_slice(study)),
-        source=source_fingerprint("pyrofit.stages.diagnose"),
     message:
         "Which effect the model lacks"
     shell:
         '"$PYROFIT_PYTHON" -P -m pyrofit'
-        " diagnose --study {params.study} --digest {params.digest} --log {log}"
+        " diagnose --study {input.plan} --log {log}"
         " --cores {threads}"
 
 
@@ -29,6 +26,11 @@ rule diagnosis_page:
         MEASUREMENTS,
         DIAGNOSIS,
         results.diagnosis("curves.csv"),
+        plan=plan(
+            "diagnosis_page",
+            dependencies.presentation,
+            "pyrofit.show.diagnosis_page",
+        ),
     output:
         results.diagnosis("report.html"),
     log:
@@ -36,15 +38,12 @@ rule diagnosis_page:
     localrule: True
     threads: 2
     params:
-        study=STUDY,
-        digest=digest(dependencies.presentation(study)),
-        source=source_fingerprint("pyrofit.show.diagnosis_page"),
         versions=VERSIONS,
     message:
         "Diagnosis: {output}"
     shell:
         '"$PYROFIT_PYTHON" -P -m pyrofit'
-        " diagnosis-page --study {params.study} --digest {params.digest} --log {log}"
+        " diagnosis-page --study {input.plan} --log {log}"
         " --cores {threads}"
 
 

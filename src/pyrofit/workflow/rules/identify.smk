@@ -8,6 +8,7 @@ rule identify:
         OUTSIDE,
         results.imp("summary.csv"),
         STARTED,
+        plan=plan("identify", dependencies.identify_slice, "pyrofit.stages.identify"),
     output:
         identification("imp", "sets"),
     log:
@@ -15,15 +16,10 @@ rule identify:
     benchmark:
         benchmark_of("identify")
     threads: RUNS_CORES
-    params:
-        study=STUDY,
-        digest=digest(dependencies.identify_slice(study)),
-        source=source_fingerprint("pyrofit.stages.identify"),
     message:
         "What the data determine of the inverse modelling"
     shell:
-        '"$PYROFIT_PYTHON" -P -m pyrofit'
-        " identify --study {params.study} --digest {params.digest} --log {log}"
+        '"$PYROFIT_PYTHON" -P -m pyrofit identify --study {input.plan} --log {log}'
 
 
 if study.kinetics is not None:
@@ -33,6 +29,11 @@ if study.kinetics is not None:
         input:
             MEASUREMENTS,
             KINETICS,
+            plan=plan(
+                "identify_kinetics",
+                dependencies.kinetics,
+                "pyrofit.stages.identify",
+            ),
         output:
             identification("kinetics"),
             SHOWN_KINETICS,
@@ -42,13 +43,8 @@ if study.kinetics is not None:
             benchmark_of("identify_kinetics")
         # The searches of the inverse modelling wait for it.
         priority: 3
-        params:
-            study=STUDY,
-            digest=digest(dependencies.kinetics(study)),
-            source=source_fingerprint("pyrofit.stages.identify"),
         message:
             "What the data determine of the kinetics"
         shell:
             '"$PYROFIT_PYTHON" -P -m pyrofit'
-            " identify --stage kinetics --study {params.study} --digest {params.digest}"
-            " --log {log}"
+            " identify --stage kinetics --study {input.plan} --log {log}"

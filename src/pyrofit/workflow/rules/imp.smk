@@ -8,6 +8,7 @@ for _cost, _together in product(COSTS, SHARES):
             MEASUREMENTS,
             KINETICS_FOR_IMP,
             OUTSIDE,
+            plan=plan(f"imp_{_cost}", dependencies.imp, FITS, of=[_cost, "sceua"]),
         output:
             expand(
                 ROOT / f"imp/{_cost}/{{repetition}}{{suffix}}",
@@ -22,11 +23,6 @@ for _cost, _together in product(COSTS, SHARES):
         priority: 2
         threads: RUN_CORES
         params:
-            study=STUDY,
-            digest=digest(dependencies.imp(study, _cost, "sceua")),
-            generations=study.imp.sceua.generations,
-            seed=study.seed,
-            source=FITS,
             cost=_cost,
             # Derived from the output: sharing out otherwise runs nothing again.
             repetitions=lambda wildcards, output: repetitions_in(output),
@@ -35,7 +31,7 @@ for _cost, _together in product(COSTS, SHARES):
             + " to ".join(dict.fromkeys([_together[0], _together[-1]]))
         shell:
             '"$PYROFIT_PYTHON" -P -m pyrofit'
-            " imp --study {params.study} --digest {params.digest} --log {log}"
+            " imp --study {input.plan} --log {log}"
             " --cost {params.cost} --repetition {params.repetitions}"
 
 
@@ -44,6 +40,12 @@ rule optimise:
         MEASUREMENTS,
         KINETICS_FOR_IMP,
         OUTSIDE,
+        plan=lambda wildcards: plan(
+            f"{wildcards.optimiser}_{wildcards.cost}",
+            dependencies.imp,
+            FITS,
+            of=[wildcards.cost, wildcards.optimiser],
+        ),
     output:
         ROOT / "imp/{cost}/{optimiser}.json",
     log:
@@ -54,20 +56,13 @@ rule optimise:
         optimiser="|".join(OPTIMISERS),
     threads: RUNS_CORES
     params:
-        study=STUDY,
-        digest=lambda wildcards: digest(
-            dependencies.imp(study, wildcards.cost, wildcards.optimiser)
-        ),
-        starts=lambda wildcards: getattr(study.imp, wildcards.optimiser).starts,
-        seed=study.seed,
-        source=FITS,
         command=lambda wildcards: OPTIMISERS[wildcards.optimiser].command,
         title=lambda wildcards: OPTIMISERS[wildcards.optimiser].title,
     message:
         "{params.title}, {wildcards.cost}"
     shell:
         '"$PYROFIT_PYTHON" -P -m pyrofit'
-        " {params.command} --study {params.study} --digest {params.digest} --log {log}"
+        " {params.command} --study {input.plan} --log {log}"
         " --cost {wildcards.cost}"
 
 
@@ -77,22 +72,22 @@ rule descent:
         KINETICS_FOR_IMP,
         OUTSIDE,
         results.imp("summary.csv"),
+        plan=lambda wildcards: plan(
+            f"descent_{wildcards.cost}",
+            dependencies.imp,
+            FITS,
+            of=[wildcards.cost, "least_squares"],
+        ),
     output:
         ROOT / "imp/{cost}/descent.json",
     log:
         log_of("descent_{cost}"),
     threads: RUNS_CORES
-    params:
-        study=STUDY,
-        digest=lambda wildcards: digest(
-            dependencies.imp(study, wildcards.cost, "least_squares")
-        ),
-        source=FITS,
     message:
         "Least squares from SCE-UA's best set, {wildcards.cost}"
     shell:
         '"$PYROFIT_PYTHON" -P -m pyrofit'
-        " descent --study {params.study} --digest {params.digest} --log {log}"
+        " descent --study {input.plan} --log {log}"
         " --cost {wildcards.cost}"
 
 
@@ -106,18 +101,14 @@ rule collect:
             cost=COSTS,
             repetition=REPETITIONS,
         ),
+        plan=plan("collect", dependencies.collect_slice, FITS),
     output:
         summary=results.imp("summary.csv"),
         convergence=results.imp("convergence.csv"),
     log:
         log_of("collect"),
     localrule: True
-    params:
-        study=STUDY,
-        digest=digest(dependencies.collect_slice(study)),
-        source=FITS,
     message:
         "All repetitions gathered"
     shell:
-        '"$PYROFIT_PYTHON" -P -m pyrofit'
-        " collect --study {params.study} --digest {params.digest} --log {log}"
+        '"$PYROFIT_PYTHON" -P -m pyrofit collect --study {input.plan} --log {log}'

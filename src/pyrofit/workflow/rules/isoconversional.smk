@@ -17,18 +17,19 @@ if has_rates(study):
                 if study.kinetics
                 else results.identification("estimate.csv")
             ),
+            plan=plan(
+                "isoconversional",
+                dependencies.isoconversional_slice,
+                "pyrofit.stages.isoconversional",
+            ),
         output:
             ISOCONVERSIONAL,
         log:
             log_of("isoconversional"),
         benchmark:
             benchmark_of("isoconversional")
-        params:
-            study=STUDY,
-            digest=digest(dependencies.isoconversional_slice(study)),
-            source=source_fingerprint("pyrofit.stages.isoconversional"),
         message:
             "Activation energy over conversion"
         shell:
             '"$PYROFIT_PYTHON" -P -m pyrofit'
-            " isoconversional --study {params.study} --digest {params.digest} --log {log}"
+            " isoconversional --study {input.plan} --log {log}"

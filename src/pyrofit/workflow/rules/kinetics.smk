@@ -23,6 +23,7 @@ if study.kinetics is not None:
     rule kinetics:
         input:
             MEASUREMENTS,
+            plan=plan("kinetics", dependencies.kinetics, FITS),
         output:
             fit=results.kinetics("fit.json"),
             history=results.kinetics("history.csv.gz"),
@@ -31,14 +32,8 @@ if study.kinetics is not None:
             log_of("kinetics"),
         benchmark:
             benchmark_of("kinetics")
-        params:
-            study=STUDY,
-            digest=digest(dependencies.kinetics(study)),
-            generations=study.kinetics.sceua.generations,
-            seed=study.seed,
-            source=FITS,
         message:
             "Kinetics fitted to heated samples"
         shell:
             '"$PYROFIT_PYTHON" -P -m pyrofit'
-            " kinetics --study {params.study} --digest {params.digest} --log {log}"
+            " kinetics --study {input.plan} --log {log}"

@@ -11,18 +11,15 @@ if PROGRAMS:
             MEASUREMENTS,
             KINETICS_FOR_IMP,
             PROGRAM_FILES,
+            plan=plan("trial", dependencies.trial_slice, "pyrofit.stages.trial"),
         output:
             results.programs("trial.json"),
         log:
             log_of("trial"),
         threads: max(1, workflow.cores or 1)
-        params:
-            study=STUDY,
-            digest=digest(dependencies.trial_slice(study)),
-            source=source_fingerprint("pyrofit.stages.trial"),
         message:
             "External programs: one timed run, and what the campaign costs"
         shell:
             '"$PYROFIT_PYTHON" -P -m pyrofit'
-            " trial --study {params.study} --digest {params.digest} --log {log}"
+            " trial --study {input.plan} --log {log}"
             " --cores {threads}"

@@ -28,6 +28,7 @@ for _subject, _part in SUBJECTS.items():
             FITTED_KINETICS if _subject == "kinetics" else CALCULATED,
             MEASUREMENTS,
             results.measurements_summary,
+            plan=plan(f"show_{_subject}", dependencies.presentation, *_part.modules),
         output:
             tables=[
                 reported(ROOT / f"tables/{name}.csv", "table", TABLES, name)
@@ -43,8 +44,6 @@ for _subject, _part in SUBJECTS.items():
             log_of(f"show_{_subject}"),
         priority: 1
         params:
-            study=STUDY,
-            digest=digest(dependencies.presentation(study)),
             subject=_subject,
             shown={
                 **{title_in(TABLES, name): TABLES[name].note for name in _tables},
@@ -52,12 +51,11 @@ for _subject, _part in SUBJECTS.items():
                     title_in(FIGURES, name): FIGURES[name].caption for name in _figures
                 },
             },
-            source=source_fingerprint(*_part.modules),
         message:
             "Tables and figures, {params.subject}"
         shell:
             '"$PYROFIT_PYTHON" -P -m pyrofit'
-            " show --study {params.study} --digest {params.digest} --log {log}"
+            " show --study {input.plan} --log {log}"
             " --subject {params.subject}"
 
 
@@ -76,6 +74,7 @@ rule report:
             and exists(study, results, name)
         ],
         [page for page in [results.diagnosis("report.html")] if page.exists()],
+        plan=plan("report", dependencies.presentation, *STUDY_MODULES),
     output:
         page=report(
             ROOT / "report.html",
@@ -88,12 +87,8 @@ rule report:
         log_of("report"),
     localrule: True
     params:
-        study=STUDY,
-        digest=digest(dependencies.presentation(study)),
-        source=SHOWS,
         versions=VERSIONS,
     message:
         "Report: {output.page}"
     shell:
-        '"$PYROFIT_PYTHON" -P -m pyrofit'
-        " report --study {params.study} --digest {params.digest} --log {log}"
+        '"$PYROFIT_PYTHON" -P -m pyrofit report --study {input.plan} --log {log}'

@@ -29,8 +29,9 @@ def files_of_step(step, name):
     return [*(results.of_step(name, file) for file in inputs.files), *folders]
 
 
-def digest_of_part(name, wildcards):
-    return digest(slice_of(study, name, wildcards.part))
+def plan_of_part(name, wildcards):
+    step, part = known_steps()[name], wildcards.part
+    return plan(f"{name}_{part}", slice_of, f"{step.package}.compute", of=[name, part])
 
 
 for _name, _step in known_steps().items():
@@ -44,6 +45,7 @@ for _name, _step in known_steps().items():
                 _name
             input:
                 [READ[group] for group in _inputs.reads],
+                plan=plan(_name, slice_of, *_step.modules, of=[_name]),
             output:
                 files_of_step(_step, _name),
             log:
@@ -53,16 +55,13 @@ for _name, _step in known_steps().items():
             priority: 10 if _step.early else 0
             threads: _step.threads
             params:
-                study=STUDY,
-                digest=digest(slice_of(study, _name)),
-                source=source_fingerprint(*_step.modules),
                 step=_name,
                 said=_step.message,
             message:
                 "{params.said}"
             shell:
                 '"$PYROFIT_PYTHON" -P -m pyrofit'
-                " {params.step} {params.study} --digest {params.digest} --log {log}"
+                " {params.step} {input.plan} --log {log}"
                 " --cores {threads}"
 
     else:
@@ -72,6 +71,7 @@ for _name, _step in known_steps().items():
                 f"{_name}_of_{_step.part}"
             input:
                 [READ[group] for group in _inputs.reads],
+                plan=partial(plan_of_part, _name),
             output:
                 str(_parts),
             log:
@@ -82,16 +82,13 @@ for _name, _step in known_steps().items():
                 part="|".join(_inputs.parts(study)),
             threads: RUNS_CORES
             params:
-                study=STUDY,
-                digest=partial(digest_of_part, _name),
-                source=source_fingerprint(f"{_step.package}.compute"),
                 step=_name,
                 option=_step.part,
             message:
                 _step.part_message
             shell:
                 '"$PYROFIT_PYTHON" -P -m pyrofit'
-                " {params.step} {params.study} --digest {params.digest} --log {log}"
+                " {params.step} {input.plan} --log {log}"
                 " --{params.option} {wildcards.part}"
 
         rule:
@@ -100,19 +97,17 @@ for _name, _step in known_steps().items():
             input:
                 [READ[group] for group in _inputs.gathers],
                 expand(_parts, part=_inputs.parts(study)),
+                plan=plan(_name, dependencies.presentation, *_step.modules),
             output:
                 files_of_step(_step, _name),
             log:
                 log_of(_name),
             localrule: True
             params:
-                study=STUDY,
-                digest=digest(dependencies.presentation(study)),
-                source=source_fingerprint(*_step.modules),
                 step=_name,
                 said=_step.message,
             message:
                 "{params.said}"
             shell:
                 '"$PYROFIT_PYTHON" -P -m pyrofit'
-                " {params.step} {params.study} --digest {params.digest} --log {log}"
+                " {params.step} {input.plan} --log {log}"

@@ -16,18 +16,15 @@ rule predict:
         results.imp("summary.csv"),
         STARTED,
         results.identification("estimate.csv"),
+        plan=plan("predict", dependencies.validation_slice, "pyrofit.stages.predict"),
     output:
         PREDICTED,
     log:
         log_of("predict"),
     threads: RUNS_CORES
     params:
-        study=STUDY,
-        digest=digest(dependencies.validation_slice(study)),
         experiments=" ".join(study.validation.experiments),
-        source=source_fingerprint("pyrofit.stages.predict"),
     message:
         "Estimates and best sets simulated at {params.experiments}"
     shell:
-        '"$PYROFIT_PYTHON" -P -m pyrofit'
-        " predict --study {params.study} --digest {params.digest} --log {log}"
+        '"$PYROFIT_PYTHON" -P -m pyrofit predict --study {input.plan} --log {log}'
