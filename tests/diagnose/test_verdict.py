@@ -555,7 +555,9 @@ def test_no_fit_with_an_effect_ends_above_the_one_without() -> None:
         found = searched(y, effects=EFFECTS)
         assert len(found.trials) >= len(EFFECTS)
         for step in found.rounds:
-            assert all(trial.fit.chi2 <= step.start.fit.chi2 for trial in step.trials)
+            # A column more, of strength zero, rounds the products of this model otherwise.
+            most = step.start.fit.chi2 * (1.0 + 1e-14)
+            assert all(trial.fit.chi2 <= most for trial in step.trials)
 
 
 def test_claims_gain_as_much_as_is_asked_for() -> None:
