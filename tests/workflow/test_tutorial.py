@@ -111,7 +111,7 @@ def test_archive_holds_study_files_results_and_software(followed: Followed, unpa
         assert (unpacked / "as_given" / Path(name).name).read_bytes() == given
     for name in ("tga_20K.csv", "slab_25kW.csv", "slab_60kW.csv"):
         assert (unpacked / "data" / name).read_bytes() == (followed.root / name).read_bytes()
-    left_out = {"logs", "benchmarks", "mypolymer_quick.zip"}
+    left_out = {"inputs", "logs", "benchmarks", "mypolymer_quick.zip"}
     for path in followed.results.rglob("*"):
         place = path.relative_to(followed.results)
         if path.is_file() and place.parts[0] not in left_out:
