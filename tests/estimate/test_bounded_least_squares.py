@@ -139,3 +139,21 @@ def test_no_step_is_longer_than_it_is_trusted_to_be(radius: float) -> None:
     minimise(straight, differences(straight), np.array([0.9, 0.1, 0.9]), 1e-6, first_radius=radius)
     ahead = next(x for x in asked if np.abs(x - asked[0]).max() > 1e-5)
     assert np.linalg.norm(ahead - asked[0]) <= 1.3 * radius
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_parameters_that_do_the_same_do_not_end_a_descent(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    rows = 10.0 ** rng.uniform(0.0, 4.0) * rng.standard_normal((60, 5))
+    rows[:, 1], rows[:, 3] = rows[:, 0], 0.5 * rows[:, 2]
+    target = rows @ np.full(5, 0.4)
+    found = descend(lambda x: rows @ x - target, rng.random(5).tolist(), ridge=1e-12)
+    assert found.chi2 < 1e-4
+
+
+def test_held_parameter_stays_with_derivatives_at_hand() -> None:
+    start, slopes = np.array([0.9, 0.1, 0.9]), 30.0 * ROWS
+    found = descend(bent, start.tolist(), begin=slopes, fixed=1)
+    assert found.x[1] == 0.1
+    assert found.x == pytest.approx(descend(bent, start.tolist(), fixed=1).x, abs=1e-4)
+    assert np.array_equal(slopes, 30.0 * ROWS)

@@ -6,6 +6,7 @@ doi 10.1090/S0025-5718-1965-0198670-6): a step then costs one simulation instead
 parameter. They are made anew where the updated ones mislead, or lead nowhere.
 """
 
+import contextlib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -33,6 +34,8 @@ MOST_LENGTHS = 15
 """Dampings tried for a step of that length."""
 RIDGE = 1e-6
 """Added to the curvature, so that a parameter without influence does not move."""
+RAISED = (0.0, 1e-12, 1e-9, 1e-6)
+"""Added to it as shares of the largest curvature, the least that leaves it positive definite."""
 NEAR = 50.0
 """Largest rise of the sum of squares above a known fit from which a descent may return to it."""
 LIKE_PARABOLA = 0.2
@@ -125,8 +128,8 @@ def minimise(
     chi2, fresh = linear.dot(r, r), begin is None
     held = [] if fixed is None else [fixed]
     moving = [i for i in range(x.size) if i not in idle]
-    whole = _without(held, jacobian(x, r)) if begin is None else begin
-    J = _columns(whole, moving)
+    whole = _without(held, jacobian(x, r) if begin is None else begin.copy())
+    J = whole.take(moving, axis=1)
     square = linear.gram(J)
     radius, damping, refused = first_radius, 0.0, 0
     tried, returned = np.inf, False
@@ -137,7 +140,6 @@ def minimise(
         if promised > converged_gain:
             step = np.zeros(x.size)
             step[moving] = taken
-            step[held] = 0.0
             ahead = np.clip(x + step, 0.0, 1.0)  # a rate rounded below zero is no rate
             there = residuals(ahead)
             fallen = linear.dot(there, there)
@@ -158,13 +160,12 @@ def minimise(
                 continue
         if not fresh:
             whole, fresh, refused = _without(held, jacobian(x, r)), True, 0
-            J = _columns(whole, moving)
+            J = whole.take(moving, axis=1)
             square = linear.gram(J)
         elif promised <= converged_gain:
             if length < NEAREST * radius or chi2 > tried - converged_gain:
                 break
             tried, radius = chi2, first_radius  # a shorter step promises less
-    whole = whole.copy()
     whole[:, moving] = J
     return Fit(chi2, x, r, whole, order if fresh else 0, returned)
 
@@ -174,11 +175,6 @@ def _radius(radius: float, length: float, reached: float) -> float:
     if reached < SHORT:
         return SHRINK * min(length, radius)
     return max(radius, GROW * length) if reached > FULL else radius
-
-
-def _columns(jacobian: FloatArray, moving: list[int]) -> FloatArray:
-    """Return the derivatives by the moving parameters, a new array."""
-    return jacobian.take(moving, axis=1)
 
 
 def _without(held: list[int], jacobian: FloatArray) -> FloatArray:
@@ -212,7 +208,11 @@ def _step(
 
     def damped(by: float) -> FloatArray:
         raised = square + np.diag(np.full(slope.size, by + ridge))
-        return fitting.within_limits(raised, slope, -x, 1.0 - x)
+        for share in RAISED:  # parameters that do the same have a curvature of rounding
+            more = share * np.diag(square).max(initial=0.0)
+            with contextlib.suppress(np.linalg.LinAlgError):
+                return fitting.within_limits(raised + more * np.eye(x.size), slope, -x, 1.0 - x)
+        raise np.linalg.LinAlgError("the derivatives are not finite")
 
     # 1/length is nearly a line over the damping; of large dampings its slope is 1/|g|.
     by, before = damping, (-1.0, 0.0)
