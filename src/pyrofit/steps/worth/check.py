@@ -71,7 +71,7 @@ class DrawnData:
 
             return derivatives(beside, x, r, order=1)[0]
 
-        return minimise(residuals, jacobian, x0, ENOUGH, begin=begin).x
+        return minimise(residuals, jacobian, x0, ENOUGH, begin=begin, order=1).x
 
 
 def spreads(
