@@ -489,7 +489,7 @@ def test_detectability_is_nil_without_effect_and_grows_with_its_strength(
     assert of({"thickness": {"factor": 1.02}}) < 0.1 * of({"edge_loss": {"h_W_m2K": 10.0}})
 
 
-def test_detectability_is_searched_from_a_fitted_base_as_well(setting: Setting) -> None:
+def test_detectability_is_the_least_from_the_truth_and_from_a_fitted_base(setting: Setting) -> None:
     hidden = {"flux_level": {"factor": 1.03}}
     given = {"signals": "mlr+back", "noise": "measured", "seed": 7246807}
     twin = make_twin(setting, TwinPlan(**{**FORM, "kind": "effect", "hidden": hidden, **given}))
@@ -508,8 +508,8 @@ def test_detectability_is_searched_from_a_fitted_base_as_well(setting: Setting) 
     }
     from_truth = detectability(twin.truth, twin.series, setting.known).size
     from_both = detectability(twin.truth, twin.series, setting.known, fitted).size
-    assert from_truth > 8.0
-    assert from_both < 3.0
+    # Descents that end early in a curved valley stay above 8 from the truth.
+    assert from_both <= from_truth < 3.0
 
 
 # Scoring
