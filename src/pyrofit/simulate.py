@@ -126,14 +126,17 @@ def simulate_slabs(
     requests: Sequence[Mapping[str, Request]],
     accuracy: Accuracy,
     sets: int = 1,
+    led: bool = False,
 ) -> list[list[Curves]]:
     """Simulate such experiments of one material; the curves are listed by experiment, then set.
 
-    In as many threads as processes would be idle otherwise.
+    In as many threads as processes would be idle otherwise. Where the sets are ``led``, all take
+    the cells and time steps of the first one. Its curves are those that it has alone. Differences
+    from it are smooth in the parameters, but the error control is that of the first one.
     """
     substance = Substance(material, values, sets)
     return [
-        _simulated(experiment, substance, asked, accuracy, 1 + spare())
+        _simulated(experiment, substance, asked, accuracy, 1 + spare(), led)
         for experiment, asked in zip(experiments, requests, strict=True)
     ]
 
@@ -144,20 +147,23 @@ def _simulated(
     requests: Mapping[str, Request],
     accuracy: Accuracy,
     threads: int = 1,
+    led: bool = False,
 ) -> list[Curves]:
     values, sets = substance.values, substance.sets
+    block = sets if led and sets > 1 else 0
     case = lowered(experiment, substance.of(experiment.sample), accuracy)
     located = lower_places(experiment.sample, requests, values, sets)
 
     def run(factors: FloatArray | None, asked: Mapping[str, Request]) -> Runs:
         if factors is None:
-            return run_kernel(case, asked, _numerics(accuracy), threads)
+            return run_kernel(case, asked, _numerics(accuracy), threads, block)
         runs = repeated_case(case, factors.size // sets)
         exposure = runs.description.exposure
         schedule = exposure.schedule.copy()
         schedule[FLUX] *= factors
         exposed = runs.description._replace(exposure=exposure._replace(schedule=schedule))
-        return run_kernel(runs._replace(description=exposed), asked, _numerics(accuracy), threads)
+        runs = runs._replace(description=exposed)
+        return run_kernel(runs, asked, _numerics(accuracy), threads, block)
 
     return observe(experiment, values, located, run, sets).curves()
 

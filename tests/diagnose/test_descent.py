@@ -35,7 +35,7 @@ class Fake:
         self.asked.append(x.copy())
         return self.function(x)
 
-    def jacobian(self, x: FloatArray, residuals: FloatArray, order: int = 2) -> FloatArray:
+    def jacobian(self, x: FloatArray, residuals: FloatArray) -> FloatArray:
         by = np.where(x < 0.5, 1e-6, -1e-6)
         rows = [
             (self.residuals(x + by * row) - residuals) / by[i]
@@ -200,6 +200,6 @@ def test_refreshed_derivatives_are_those_at_the_end() -> None:
     exact = 120.0 * np.array([[-20.0 * u, 10.0], [-1.0, 0.0]])
     again = refreshed(model, end)
     assert again.jacobian == pytest.approx(exact, rel=1e-3)
-    assert again.order == 2
+    assert again.fresh
     assert again.x is end.x
     assert refreshed(model, again) is again

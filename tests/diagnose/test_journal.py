@@ -21,7 +21,7 @@ from pyrofit.estimate.bounded_least_squares import Fit
 from pyrofit.solver.arrays import FloatArray
 
 X = np.array([0.2, 0.7])
-FIT = Fit(0.3, X, np.array([0.1, np.nextafter(1.0, 2.0)]), np.eye(2) / 3.0, order=0)
+FIT = Fit(0.3, X, np.array([0.1, np.nextafter(1.0, 2.0)]), np.eye(2) / 3.0, fresh=False)
 
 
 def same(one: Fit, other: Fit) -> bool:
@@ -45,14 +45,14 @@ def test_kept_descent_comes_back_with_all_bits(tmp_path: Path) -> None:
 
 
 def test_derivatives_of_the_end_are_made_there_again(tmp_path: Path) -> None:
-    fresh = replace(FIT, order=1, returned=True)
+    fresh = replace(FIT, fresh=True, returned=True)
     journal = Journal(tmp_path, worth_s=0.0)
     journal.fit("a", lambda: fresh, never)
     asked: list[FloatArray] = []
 
     def at_end(x: FloatArray) -> Fit:
         asked.append(x)
-        return replace(FIT, order=1)
+        return replace(FIT, fresh=True)
 
     assert same(journal.fit("a", never, at_end), fresh)
     assert np.array_equal(asked[0], X)

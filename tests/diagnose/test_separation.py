@@ -11,7 +11,7 @@ from pyrofit.diagnose.advise.separation import Design, next_experiments
 from pyrofit.diagnose.base.descent import Fit
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.search.refit import look_at, with_effect
-from pyrofit.diagnose.settings import Settings
+from pyrofit.estimate.derivatives import SECANT
 from pyrofit.simulate import simulate_tga
 from pyrofit.solver.curves import Request
 
@@ -114,7 +114,7 @@ def test_separation_by_a_tga_is_the_formula_written_out() -> None:
     S = np.eye(D.size)
     C = np.linalg.inv(trial.fit.jacobian.T @ trial.fit.jacobian + 12.0 * np.eye(moved.size))
     for x in (trial.fit.x, moved):
-        by = [Settings().difference_step if xi < 0.5 else -Settings().difference_step for xi in x]
+        by = [SECANT.step if xi < 0.5 else -SECANT.step for xi in x]
         steps = np.diag(by)
         J = np.column_stack([(curve(x + s) - curve(x)) / b for s, b in zip(steps, by, strict=True)])
         J = J / sd[:, None]

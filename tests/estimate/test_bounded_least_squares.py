@@ -59,7 +59,7 @@ def test_descent_to_another_valley_goes_on(start: float, end: float) -> None:
 
 def test_descent_does_not_return_to_a_fit_with_old_derivatives() -> None:
     old = descend(bent, [0.5, 0.5, 0.5])
-    old = Fit(old.chi2, old.x, old.residuals, old.jacobian, order=0)
+    old = Fit(old.chi2, old.x, old.residuals, old.jacobian, fresh=False)
     assert not descend(bent, [0.9, 0.1, 0.9], known=old).returned
 
 
@@ -104,7 +104,7 @@ def test_derivatives_at_hand_are_confirmed_at_the_end_only() -> None:
     found = minimise(straight, jacobian, start, 1e-6, begin=ROWS)
     assert found.x == pytest.approx(TRUTH, abs=1e-3)
     assert len(made) == 1
-    assert found.order == 2
+    assert found.fresh
 
 
 @pytest.mark.parametrize("start", RNG.random((20, 2)).tolist())

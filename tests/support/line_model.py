@@ -67,7 +67,9 @@ class Posed:
     def temperature_K(self, channel: int) -> None:
         return None
 
-    def simulate_all(self, X: FloatArray) -> list[tuple[Status, list[FloatArray]]]:
+    def simulate_all(
+        self, X: FloatArray, led: bool = False
+    ) -> list[tuple[Status, list[FloatArray]]]:
         curves = [self.formula(x) for x in X]
         return [(Status.DIVERGED, []) if c is None else (Status.OK, [c]) for c in curves]
 

@@ -50,7 +50,7 @@ class Linear(Problem):
             if any(np.any(parts[name][k]) for k in picked if name in parts)
         )
 
-    def simulate_all(self, X: FloatArray) -> list[Outcome]:
+    def simulate_all(self, X: FloatArray, led: bool = False) -> list[Outcome]:
         """Return the curves of the channels."""
         return [self._simulated_one(x) for x in X]
 

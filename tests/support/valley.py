@@ -25,7 +25,7 @@ class Valley:
     def residuals(self, x: FloatArray) -> FloatArray:
         return (x - np.array(self.optimum)) / (self.upper - self.lower)
 
-    def residuals_all(self, X: FloatArray) -> list[FloatArray]:
+    def residuals_all(self, X: FloatArray, led: bool = False) -> list[FloatArray]:
         return [self.residuals(x) for x in X]
 
     def evaluate(self, x: FloatArray) -> Evaluation:

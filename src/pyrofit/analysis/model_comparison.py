@@ -115,9 +115,9 @@ def descended(likelihood: Likelihood, noise: Sequence[NoiseModel], x: FloatArray
     """Return the fit under another noise, from x, with derivatives at its end."""
     under = replace(likelihood, noise=tuple(noise))
     found = under.descend(x)
-    if found.order:
+    if found.fresh:
         return found
-    return replace(found, slopes=under.jacobian(found.x, found.residuals), order=2)
+    return replace(found, slopes=under.jacobian(found.x, found.residuals), fresh=True)
 
 
 def aicc(chi2: float, parameters: int, points: float) -> float:

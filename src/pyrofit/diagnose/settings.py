@@ -9,7 +9,6 @@ from pyrofit.estimate.bounded_least_squares import (
     NEAR,
     RIDGE,
 )
-from pyrofit.estimate.derivatives import STEPS
 from pyrofit.estimate.posterior import AT_LIMIT
 
 
@@ -23,8 +22,6 @@ class Settings:
     """
 
     # Least squares
-    difference_step: float = STEPS[2]
-    """Step in x of a central difference."""
     most_steps: int = MOST_STEPS
     """Steps of a descent at most."""
     first_radius: float = FIRST_RADIUS

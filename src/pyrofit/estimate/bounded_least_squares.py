@@ -46,16 +46,15 @@ LIKE_PARABOLA = 0.2
 class Fit:
     """Where a descent ended: chi-square, x, whitened residuals and their derivatives there.
 
-    chi2 counts known values, too; ``slopes`` are the derivatives, made at x with differences of the
-    ``order``, or of order 0: made elsewhere and updated. A descent that ``returned`` ended on its
-    way to a known fit.
+    chi2 counts known values, too; ``slopes`` are the derivatives, ``fresh`` if they were made at x,
+    else made elsewhere and updated. A descent that ``returned`` ended on its way to a known fit.
     """
 
     chi2: float
     x: FloatArray
     residuals: FloatArray
     slopes: FloatArray | Columns
-    order: int = 2
+    fresh: bool = True
     returned: bool = False
 
     def __post_init__(self) -> None:
@@ -75,7 +74,7 @@ class Fit:
         It does if chi-square is near that of the fit, and near the parabola about it.
         """
         found = chi2 - self.chi2
-        if self.order == 0 or not 0.0 < found < NEAR:
+        if not self.fresh or not 0.0 < found < NEAR:
             return False
         parabola = self.residuals + linear.product(self.jacobian, x - self.x)
         rise = linear.dot(parabola, parabola) - self.chi2
@@ -91,7 +90,6 @@ def minimise(
     begin: FloatArray | None = None,
     fixed: int | None = None,
     idle: Sequence[int] = (),
-    order: int = 2,
     known: Fit | None = None,
     most_steps: int = MOST_STEPS,
     first_radius: float = FIRST_RADIUS,
@@ -116,8 +114,6 @@ def minimise(
         Position of a parameter that keeps its value.
     idle
         Positions of parameters without influence, which keep their values.
-    order
-        Order of the differences of ``jacobian``.
     known
         A fit at hand: a descent that leads there ends early.
     most_steps, first_radius, ridge
@@ -167,7 +163,7 @@ def minimise(
                 break
             tried, radius = chi2, first_radius  # a shorter step promises less
     whole[:, moving] = J
-    return Fit(chi2, x, r, whole, order if fresh else 0, returned)
+    return Fit(chi2, x, r, whole, fresh, returned)
 
 
 def _radius(radius: float, length: float, reached: float) -> float:

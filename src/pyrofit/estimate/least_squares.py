@@ -74,11 +74,11 @@ def descend(problem: Problem, values: FloatArray) -> Start:
     def beside(V: FloatArray) -> list[FloatArray | None]:
         nonlocal calls
         calls += len(V)
-        there = problem.residuals_all(problem.lower + V * span)
+        there = problem.residuals_all(problem.lower + V * span, led=True)
         return [None if failed(r) else r for r in there]
 
     def slopes(v: FloatArray, r: FloatArray) -> FloatArray:
-        return derivatives(beside, v, r, order=2)[0]
+        return derivatives(beside, v, r, problem.difference)[0]
 
     found = _minimum(residuals, slopes, u)
     end = problem.lower + found * span

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import pairwise
 
 import numpy as np
@@ -86,12 +86,13 @@ class Likelihood:
         """Return the simulated channels one after the other; None where a run does not finish."""
         return self.curves_all(x[None])[0]
 
-    def curves_all(self, X: FloatArray) -> list[FloatArray | None]:
+    def curves_all(self, X: FloatArray, led: bool = False) -> list[FloatArray | None]:
         """Return the simulated channels of several sets, X of shape (sets, parameters).
 
-        They stand one after the other; None where a run does not finish.
+        They stand one after the other; None where a run does not finish. The sets may be ``led`` by
+        the first one, see `Problem.simulate_all`.
         """
-        outcomes = self.problem.simulate_all(self.values(X))
+        outcomes = self.problem.simulate_all(self.values(X), led)
         found = [np.concatenate(models) if status.finished else None for status, models in outcomes]
         return [None if c is None or not np.all(np.isfinite(c)) else c for c in found]
 
@@ -122,12 +123,13 @@ class Likelihood:
         """
         return self.residuals_all(x[None])[0]
 
-    def residuals_all(self, X: FloatArray) -> list[FloatArray]:
+    def residuals_all(self, X: FloatArray, led: bool = False) -> list[FloatArray]:
         """Return the whitened residuals of several sets, X of shape (sets, parameters).
 
-        Each is of shape (points + known,), as those of `residuals`.
+        Each is of shape (points + known,), as those of `residuals`. The sets may be ``led`` by the
+        first one, see `Problem.simulate_all`.
         """
-        channels = [self._of_channels(curves) for curves in self.curves_all(X)]
+        channels = [self._of_channels(curves) for curves in self.curves_all(X, led)]
         known = self.prior.residuals(self.values(X))
         return [np.concatenate([*parts, own]) for parts, own in zip(channels, known, strict=True)]
 
@@ -152,27 +154,29 @@ class Likelihood:
     def slopes(self, x: FloatArray) -> FloatArray:
         """Return d curves / d x per search range, shape (points, parameters).
 
-        Differences of second order; zero where no run beside x finishes, or the one at x does not.
+        They are zero where no run beside x finishes, or the one at x does not.
         """
         here = self.curves(x)
         if here is None:
             return np.zeros((sum(self.points), x.size))
-        return derivatives(self.curves_all, x, here, order=2, by=self.problem.moving)[0]
+        beside = partial(self.curves_all, led=True)
+        problem = self.problem
+        return derivatives(beside, x, here, problem.difference, problem.moving)[0]
 
-    def jacobian(
-        self, x: FloatArray, residuals: FloatArray, order: int = 2, step: float | None = None
-    ) -> FloatArray:
+    def jacobian(self, x: FloatArray, residuals: FloatArray) -> FloatArray:
         """Return d residuals / d x, from the residuals at x; zero where no run beside it finishes.
 
         The shape is (points + known, parameters).
         """
 
         def beside(X: FloatArray) -> list[FloatArray | None]:
-            return [there if self.finished(there) else None for there in self.residuals_all(X)]
+            found = self.residuals_all(X, led=True)
+            return [there if self.finished(there) else None for there in found]
 
-        J = derivatives(beside, x, residuals, order, step=step, by=self.problem.moving)[0]
-        idle = list(self.problem.idle)
-        J[sum(self.points) :, idle] = self.prior.slopes(self.problem.span)[:, idle]
+        problem = self.problem
+        J = derivatives(beside, x, residuals, problem.difference, problem.moving)[0]
+        idle = list(problem.idle)
+        J[sum(self.points) :, idle] = self.prior.slopes(problem.span)[:, idle]
         return J
 
     def with_known(self, slopes: FloatArray) -> FloatArray:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from pyrofit.config import Study, TermSpec
 from pyrofit.config.uses import parameters_in
 from pyrofit.cost import WeightedSum
+from pyrofit.estimate.derivatives import PARABOLA, SECANT, Difference
 from pyrofit.estimate.distinct_sets import Indices, distinct_sets, taken
 from pyrofit.estimate.run import Run, alike, asked_together, own_curves
 from pyrofit.estimate.targets import Measurements, term_for
@@ -50,6 +51,12 @@ class Problem:
     cost: WeightedSum
     accuracy: Accuracy
 
+    @cached_property
+    def difference(self) -> Difference:
+        """How derivatives are taken: programs of others may round their curves."""
+        led = all(kind_of(run.experiment).can_lead for run in self.runs.values())
+        return SECANT if led else PARABOLA
+
     @property
     def span(self) -> FloatArray:
         """Search range (upper less lower limit), SI units, shape (parameters,)."""
@@ -77,29 +84,35 @@ class Problem:
         """
         return self.simulate_all(x[None])[0]
 
-    def simulate_all(self, X: FloatArray) -> list[Outcome]:
+    def simulate_all(self, X: FloatArray, led: bool = False) -> list[Outcome]:
         """Return for several sets how each ended, and the model at each term's target.
 
-        ``X`` has the shape (sets, parameters), SI units.
+        ``X`` has the shape (sets, parameters), SI units. Where the sets are ``led``, the others
+        take the cells and time steps of the first one, see `pyrofit.simulate.simulate_slabs`.
         """
         if len(X) == 0:
             return []
         columns = X[0].tolist() if len(X) == 1 else X.T
-        return self.outcomes({**self.fixed, **dict(zip(self.names, columns, strict=True))}, len(X))
+        values = {**self.fixed, **dict(zip(self.names, columns, strict=True))}
+        return self.outcomes(values, len(X), led)
 
-    def outcomes(self, values: Values, sets: int) -> list[Outcome]:
+    def outcomes(self, values: Values, sets: int, led: bool = False) -> list[Outcome]:
         """Return for several sets how each ended, and the model at each term's target.
 
         ``values`` holds each parameter by name, SI units: a number or shape (sets,).
         """
-        simulated = self.simulated(values, sets)
+        simulated = self.simulated(values, sets, led=led)
         return [
             self._picked({name: curves[s] for name, curves in simulated.items()})
             for s in range(sets)
         ]
 
     def simulated(
-        self, values: Values, sets: int, names: Iterable[str] | None = None
+        self,
+        values: Values,
+        sets: int,
+        names: Iterable[str] | None = None,
+        led: bool = False,
     ) -> dict[str, list[Curves]]:
         """Return the curves by experiment and set; kinds with one solver in one call.
 
@@ -123,7 +136,7 @@ class Problem:
             experiments = [self.runs[name].experiment for name in names]
             asked = [self._asked[name] for name in names]
             at = taken(values, first, sets)
-            found = simulate(experiments, self.material, at, asked, self.accuracy, first.size)
+            found = simulate(experiments, self.material, at, asked, self.accuracy, first.size, led)
             for name, own in zip(names, found, strict=True):
                 curves[name] = [own[i] for i in of_set]
         return {
@@ -203,9 +216,12 @@ class Problem:
         """Return the residuals of the same cost for a least-squares optimiser."""
         return self._residuals(*self.simulate(x))
 
-    def residuals_all(self, X: FloatArray) -> list[FloatArray]:
-        """Return the residuals of the cost for several sets, X of shape (sets, parameters)."""
-        return [self._residuals(*outcome) for outcome in self.simulate_all(X)]
+    def residuals_all(self, X: FloatArray, led: bool = False) -> list[FloatArray]:
+        """Return the residuals of the cost for several sets, X of shape (sets, parameters).
+
+        They may be ``led`` by the first one, as in `simulate_all`.
+        """
+        return [self._residuals(*outcome) for outcome in self.simulate_all(X, led)]
 
     def _residuals(self, status: Status, models: list[FloatArray]) -> FloatArray:
         if status.finished:

@@ -67,8 +67,12 @@ class Simulate(Protocol):
         asked: Sequence[Asked],
         accuracy: Accuracy,
         sets: int = 1,
+        led: bool = False,
     ) -> list[list[Curves]]:
-        """Return the curves by experiment, then by set; signals as they were asked for."""
+        """Return the curves by experiment, then by set; signals as they were asked for.
+
+        Where the sets are ``led``, the solver's own error is that of the first one in all.
+        """
         ...
 
 
@@ -102,6 +106,8 @@ class Kind:
         New tests.
     files
         Rules by which a new study is written from files; None = it is not written.
+    can_lead
+        Whether a set can lead others in its simulation, see `Simulate`.
     """
 
     description: type[Experiment]
@@ -114,3 +120,4 @@ class Kind:
     course: Callable[[Any, Material, Mapping[str, float], Request, Accuracy], Course]
     designs: Designs
     files: FromFiles | None
+    can_lead: bool = True

@@ -225,6 +225,8 @@ class Numerics(NamedTuple):
     longest_step: float
     """[s]."""
     most_steps: int
+    led: bool = False
+    """Whether all lanes take the time steps of the first one."""
 
 
 class Probes(NamedTuple):

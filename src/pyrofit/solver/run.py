@@ -68,8 +68,16 @@ def repeated_case(case: Case, copies: int) -> Case:
     return many._replace(cells=case.cells[index])
 
 
-def run_kernel(case: Case, asked: Mapping[str, Request], numerics: Numerics, threads: int) -> Runs:
-    """Run the kernel, sets of about the same number of cells side by side."""
+def run_kernel(
+    case: Case, asked: Mapping[str, Request], numerics: Numerics, threads: int, led: int = 0
+) -> Runs:
+    """Run the kernel, sets of about the same number of cells side by side.
+
+    Where ``led`` is not zero, the first of so many sets leads: the others take its cells and time
+    steps.
+    """
+    if led:
+        case, numerics = _led(case, led), numerics._replace(led=True)
     work = _work_of(case, asked, numerics)
     sets = case.cells.size
     if sets == 1:
@@ -81,7 +89,7 @@ def run_kernel(case: Case, asked: Mapping[str, Request], numerics: Numerics, thr
         found = _alone(work, index) if index.size == 1 else _together(work, index)
         signals[index], outcome[index], cells[index] = found
 
-    parts = _parts(case.cells, threads)
+    parts = _led_parts(sets, led, threads) if led else _parts(case.cells, threads)
     if threads > 1 and len(parts) > 1:
         with ThreadPoolExecutor(threads) as pool:
             list(pool.map(fill, parts))
@@ -162,6 +170,32 @@ def _parts(cells: IntArray, threads: int) -> list[IntArray]:
     share = LANES * -(-together.size // (LANES * threads))
     parts = [together[i : i + share] for i in range(0, together.size, share or 1)]
     return parts + [index for g in alone for index in g[:, None]]
+
+
+def _led(case: Case, led: int) -> Case:
+    """Return a case whose sets have the cells of the first of every ``led`` sets."""
+    leader = np.arange(case.cells.size) // led * led
+
+    def of_leader(cells: FloatArray | None) -> FloatArray | None:
+        return None if cells is None else cells[leader]
+
+    layers = tuple(layer._replace(cells=of_leader(layer.cells)) for layer in case.layers)
+    exposure = case.description.exposure
+    exposure = exposure._replace(backing_cells=exposure.backing_cells[leader])
+    description = case.description._replace(exposure=exposure)
+    return Case(layers, case.cells[leader], case.T_start, description)
+
+
+def _led_parts(sets: int, led: int, threads: int) -> list[IntArray]:
+    """Share out sets: groups of a leader and others that it leads, to as many calls as threads."""
+    groups = []
+    for leader in range(0, sets, led):
+        others = np.arange(leader + 1, leader + led)
+        for i in range(0, others.size, LANES - 1):
+            group = np.append(leader, others[i : i + LANES - 1])
+            groups.append(np.append(group, np.repeat(group[-1:], LANES - group.size)))
+    share = -(-len(groups) // threads)
+    return [np.concatenate(groups[i : i + share]) for i in range(0, len(groups), share)]
 
 
 def _fill_lanes(cells: IntArray) -> bool:

@@ -115,8 +115,8 @@ class _Counted(Problem):
 
     told: CallsTold
 
-    def simulate_all(self, X: FloatArray) -> list[Outcome]:
-        found = super().simulate_all(X)
+    def simulate_all(self, X: FloatArray, led: bool = False) -> list[Outcome]:
+        found = super().simulate_all(X, led)
         self.told.add(len(X))
         return found
 

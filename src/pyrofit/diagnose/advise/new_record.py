@@ -13,7 +13,7 @@ from pyrofit.experiments import kind_of
 from pyrofit.experiments.base import Idea
 from pyrofit.model.signal import TIMING_S
 from pyrofit.quantities import known_quantities
-from pyrofit.solver.arrays import FloatArray
+from pyrofit.solver.arrays import FloatArray, Values
 from pyrofit.solver.curves import Curves, Request
 from pyrofit.solver.outputs import MASS
 
@@ -29,15 +29,19 @@ class RecordKind:
 
 
 def simulated_test(
-    trial: FittedModel, idea: Idea, x: FloatArray, requests: Mapping[str, Request]
-) -> Curves:
-    """Simulate the new test with a model's own description of the one it is like."""
+    trial: FittedModel, idea: Idea, X: FloatArray, requests: Mapping[str, Request]
+) -> list[Curves]:
+    """Simulate the new test with a model's own description of the one it is like.
+
+    The first of the sets, X of shape (sets, parameters), leads the others.
+    """
     likelihood = trial.model.likelihood
     problem = likelihood.problem
-    values = problem.values(likelihood.values(x))
+    columns = dict(zip(problem.names, likelihood.values(X).T, strict=True))
+    values: Values = {**problem.fixed, **columns}
     experiment = idea.change(problem.runs[idea.like].experiment)
-    simulate = kind_of(experiment).simulate
-    return simulate([experiment], problem.material, values, [requests], problem.accuracy)[0][0]
+    simulate, accuracy = kind_of(experiment).simulate, problem.accuracy
+    return simulate([experiment], problem.material, values, [requests], accuracy, len(X), True)[0]
 
 
 def requests_of(
@@ -77,7 +81,7 @@ def _burnt_out(trial: FittedModel, idea: Idea) -> float:
     """Return the time at which a test may end [s]."""
     longest, spacing = trial.settings.design_longest_s, trial.settings.design_spacing_s
     time = np.arange(0.0, longest + spacing, spacing)
-    curves = simulated_test(trial, idea, trial.fit.x, {MASS: Request(time)})
+    (curves,) = simulated_test(trial, idea, trial.fit.x[None], {MASS: Request(time)})
     if not curves.status.finished:
         return longest
     lost = curves.signals[MASS][0] - curves.signals[MASS]

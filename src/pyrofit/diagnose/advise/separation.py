@@ -134,16 +134,16 @@ def _separation(one: _Forecast, other: _Forecast, noise: Mapping[str, NoiseModel
 def _forecast(trial: FittedModel, idea: Idea, requests: Mapping[str, Request]) -> _Forecast | None:
     """Return the predictions of a model; None where a run does not finish."""
     x = trial.fit.x
-    curves = simulated_test(trial, idea, x, requests)
+    (curves,) = simulated_test(trial, idea, x[None], requests)
     if not curves.status.finished:
         return None
 
     def stacked(X: FloatArray) -> list[FloatArray | None]:
-        runs = [simulated_test(trial, idea, there, requests) for there in X]
+        runs = simulated_test(trial, idea, X, requests)
         return [_stacked(run, requests) if run.status.finished else None for run in runs]
 
     here = _stacked(curves, requests)
-    slopes, found = derivatives(stacked, x, here, 1, step=trial.settings.difference_step)
+    slopes, found = derivatives(stacked, x, here)
     if not np.all(found):
         return None
     bend = curvature(trial.fit.jacobian)

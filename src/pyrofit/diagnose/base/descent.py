@@ -22,9 +22,8 @@ def descend_chi_square(
 ) -> Fit:
     """Minimise chi-square from x, with derivatives to begin with if some are at hand.
 
-    Its derivatives are of first order, which takes half of the runs and leads to the same end. It
-    ends where fresh ones promise less than ``enough``, by default as the settings say, or
-    where it leads to a fit that is ``known``. The parameter at position ``fixed`` keeps its value.
+    It ends where fresh ones promise less than ``enough``, by default as the settings say, or where
+    it leads to a fit that is ``known``. The parameter at position ``fixed`` keeps its value.
     Parameters that no run uses, as those of an experiment left out, take their known values.
     """
     settings = model.base.settings
@@ -34,13 +33,12 @@ def descend_chi_square(
     def made() -> Fit:
         return minimise(
             model.residuals,
-            partial(model.jacobian, order=1),
+            model.jacobian,
             start,
             enough,
             begin=jacobian,
             fixed=fixed,
             idle=model.idle,
-            order=1,
             known=known,
             most_steps=settings.most_steps,
             first_radius=settings.first_radius,
@@ -58,15 +56,14 @@ def descend_chi_square(
 def _fit_at(model: Model, fixed: int | None, x: FloatArray) -> Fit:
     """Return the fit that a descent to x ends with."""
     residuals = model.residuals(x)
-    jacobian = model.jacobian(x, residuals, order=1)
+    jacobian = model.jacobian(x, residuals)
     if fixed is not None:
         jacobian[:, fixed] = 0.0
-    return Fit(linear.dot(residuals, residuals), x, residuals, jacobian, order=1)
+    return Fit(linear.dot(residuals, residuals), x, residuals, jacobian)
 
 
-def refreshed(model: Model, fit: Fit, order: int = 2) -> Fit:
-    """Return a fit with derivatives of at least this order, made at its end."""
-    if fit.order >= order:
+def refreshed(model: Model, fit: Fit) -> Fit:
+    """Return a fit with derivatives made at its end."""
+    if fit.fresh:
         return fit
-    slopes = model.jacobian(fit.x, fit.residuals, order)
-    return replace(fit, slopes=slopes, order=order)
+    return replace(fit, slopes=model.jacobian(fit.x, fit.residuals), fresh=True)

@@ -85,14 +85,12 @@ def up_to_date(trial: FittedModel) -> FittedModel:
     return replace(trial, fit=refreshed(trial.model, trial.fit))
 
 
-def all_up_to_date(
-    trials: Sequence[FittedModel], processes: int = 1, order: int = 2
-) -> list[FittedModel]:
-    """Return trials with derivatives of at least this order, made at their ends."""
+def all_up_to_date(trials: Sequence[FittedModel], processes: int = 1) -> list[FittedModel]:
+    """Return trials with derivatives made at their ends."""
     found = list(trials)
-    old = [k for k, trial in enumerate(trials) if trial.fit.order < order]
+    old = [k for k, trial in enumerate(trials) if not trial.fit.fresh]
     fits = parallel_map(
-        lambda i: refreshed(trials[old[i]].model, trials[old[i]].fit, order), len(old), processes
+        lambda i: refreshed(trials[old[i]].model, trials[old[i]].fit), len(old), processes
     )
     for k, fit in zip(old, fits, strict=True):
         found[k] = replace(trials[k], fit=fit)
@@ -107,7 +105,7 @@ def polished(trials: Sequence[FittedModel], processes: int = 1) -> list[FittedMo
     if not trials:
         return []
     settings = trials[0].settings
-    found = all_up_to_date(trials, processes, order=1)
+    found = all_up_to_date(trials, processes)
     lowered = list(range(len(found)))
     for _ in range(settings.most_polishing_rounds):
         begins = [(k, x) for k in lowered for x in _elsewhere(found[k])]
@@ -115,7 +113,7 @@ def polished(trials: Sequence[FittedModel], processes: int = 1) -> list[FittedMo
         ends = _ends([(found[k], x) for k, x in begins], processes)
         for (k, _), end in zip(begins, ends, strict=True):
             found[k] = lower_of(found[k], end)
-        found = all_up_to_date(found, processes, order=1)
+        found = all_up_to_date(found, processes)
         lowered = [k for k in lowered if found[k].fit.chi2 < before[k] - settings.same_valley]
     return found
 

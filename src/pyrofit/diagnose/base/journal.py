@@ -30,7 +30,7 @@ INWARDS = 0.1
 SUFFIX = ".npz"
 OF_FRESH = ("x", "returned")
 """Fields that are kept of a descent that ends with derivatives made there."""
-OF_ANY = ("chi2", "x", "residuals", "jacobian", "order", "returned")
+OF_ANY = ("chi2", "x", "residuals", "jacobian", "fresh", "returned")
 """Those of any other descent, in the order of a fit."""
 
 
@@ -106,7 +106,7 @@ def _content(part: object) -> bytes:
 
 def _written(fit: Fit) -> bytes:
     buffer = io.BytesIO()
-    names = OF_FRESH if fit.order else OF_ANY
+    names = OF_FRESH if fit.fresh else OF_ANY
     values: dict[str, Any] = {name: np.asarray(getattr(fit, name)) for name in names}
     np.savez(buffer, **values)
     return buffer.getvalue()

@@ -119,15 +119,14 @@ class Model:
         own = self.likelihood.residuals_all(X)
         return [np.concatenate([r, row]) for r, row in zip(own, rows, strict=True)]
 
-    def jacobian(self, x: FloatArray, residuals: FloatArray, order: int = 2) -> FloatArray:
-        """Return d residuals / d x by differences of first or second order."""
+    def jacobian(self, x: FloatArray, residuals: FloatArray) -> FloatArray:
+        """Return d residuals / d x."""
         rows = np.zeros((len(self.base.plausible), x.size))
         for k, i, plausible in self._strengths:
             slope = plausible.slopes(self._strength(x[None], i))[0]
             rows[k, i] = slope * self.likelihood.problem.span[i]
         own = residuals[: residuals.size - len(rows)]
-        slopes = self.likelihood.jacobian(x, own, order, self.base.settings.difference_step)
-        return np.vstack([slopes, rows])
+        return np.vstack([self.likelihood.jacobian(x, own), rows])
 
     @property
     def _strengths(self) -> list[tuple[int, int, Plausible]]:

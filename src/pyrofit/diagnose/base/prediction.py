@@ -155,7 +155,7 @@ def _model_for(trial: FittedModel, prediction: str) -> Model:
 
 def _refit(trial: FittedModel, prediction: str) -> FittedModel:
     model = _model_for(trial, prediction)
-    begin = _derivatives(trial, model) if trial.fit.order else None
+    begin = _derivatives(trial, model) if trial.fit.fresh else None
     return up_to_date(FittedModel(model, descend_chi_square(model, trial.fit.x, begin)))
 
 

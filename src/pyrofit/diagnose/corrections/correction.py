@@ -44,7 +44,7 @@ class Derived(Problem):
         """All positions: derived values may use each of them."""
         return tuple(range(len(self.names)))
 
-    def outcomes(self, values: Sets, sets: int) -> list[Outcome]:
+    def outcomes(self, values: Sets, sets: int, led: bool = False) -> list[Outcome]:
         """Return how each set ended and its models, derived values included."""
         columns = {name: np.broadcast_to(value, sets) for name, value in values.items()}
         each = [
@@ -52,7 +52,7 @@ class Derived(Problem):
             for s in range(sets)
         ]
         made = {name: np.array([one[name] for one in each]) for name in each[0]}
-        return Problem.outcomes(self, {**values, **made}, sets)
+        return Problem.outcomes(self, {**values, **made}, sets, led)
 
 
 def derived(

@@ -33,4 +33,5 @@ KIND = Kind(
     course=course,
     designs=designs,
     files=None,
+    can_lead=False,
 )

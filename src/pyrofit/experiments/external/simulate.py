@@ -30,8 +30,9 @@ def simulate(
     asked: Sequence[Asked],
     accuracy: Accuracy,
     sets: int = 1,
+    led: bool = False,
 ) -> list[list[Curves]]:
-    """Return the curves by experiment and set."""
+    """Return the curves by experiment and set. No set leads another in an external program."""
     columns = {name: np.broadcast_to(x, sets).tolist() for name, x in values.items()}
     each = [{name: float(column[s]) for name, column in columns.items()} for s in range(sets)]
     return [_simulate(e, each, of) for e, of in zip(experiments, asked, strict=True)]

@@ -24,8 +24,12 @@ def simulate(
     asked: Sequence[Asked],
     accuracy: Accuracy,
     sets: int = 1,
+    led: bool = False,
 ) -> list[list[Curves]]:
-    """Return the curves by experiment and set; all in one call of the solver."""
+    """Return the curves by experiment and set; all in one call of the solver.
+
+    The steps follow the programme alone, in sets that are ``led`` as in others.
+    """
     runs = [(e, r) for e, of in zip(experiments, asked, strict=True) for r in of.values()]
     found = simulate_tgas(
         [e for e, _ in runs], material, values, [r for _, r in runs], accuracy, sets

@@ -22,9 +22,10 @@ def simulate(
     asked: Sequence[Asked],
     accuracy: Accuracy,
     sets: int = 1,
+    led: bool = False,
 ) -> list[list[Curves]]:
     """Return the curves by experiment and set."""
-    return simulate_slabs(experiments, material, values, asked, accuracy, sets)
+    return simulate_slabs(experiments, material, values, asked, accuracy, sets, led)
 
 
 def reference(

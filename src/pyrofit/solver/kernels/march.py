@@ -60,6 +60,14 @@ def edge_of(at, firsts):
 
 
 @inner
+def as_led(ratio, running):
+    """Return the ratio of the first lane in every lane, as long as that one runs."""
+    if in_lane(where(running, 1.0, 0.0 * ratio), 0) == 1.0:
+        return where(running, in_lane(ratio, 0), ratio)
+    return ratio
+
+
+@inner
 def drop(taken, firsts, flat, network):
     """Move thin cells to the skin where a step was taken; return the heat stored by that."""
     heat = 0.0 * taken
@@ -120,6 +128,8 @@ def march(T_start, firsts, empty, description, numerics, end, probes, arrays, wr
         step = advance(arrays, edge, now, description)
         now = tried(now, step.status)
         ratio = step_ratio(step.error, numerics.tolerance)
+        if numerics.led:
+            ratio = as_led(ratio, now.running)
         again = rejected(now.clock, ratio, numerics.first_step)
         accepted = now.running & opposite(again)
         taken = where(accepted, 1.0, none)

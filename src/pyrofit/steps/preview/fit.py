@@ -100,7 +100,7 @@ def nearest(
 
     fits: list[Fit] = []
     for i in best:
-        fits.append(minimise(alone, slopes, sets.unit[i], GAIN, order=1, most_steps=MOST_STEPS))
+        fits.append(minimise(alone, slopes, sets.unit[i], GAIN, most_steps=MOST_STEPS))
         if suffices(left(fits[-1])):
             break
     fit = min(fits, key=lambda one: one.chi2)

@@ -23,7 +23,7 @@ def of_record(fitted: FittedModel, record: ForecastRecord, dispersion: float) ->
 
     def whitened(experiment: Experiment) -> FloatArray | None:
         made = replace(record, forecast=replace(record.forecast, experiment=experiment))
-        return made.whitened(fitted.model.likelihood, fitted.fit.x)
+        return made.whitened(fitted.model.likelihood, fitted.fit.x[None])[0]
 
     moves = _moves(record.forecast.experiment, whitened)
     return replace(record, lasting=lasting_of(moves, dispersion))

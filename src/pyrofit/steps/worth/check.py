@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -54,24 +55,26 @@ class DrawnData:
         parts = [J, known, *([] if record is None else [record.jacobian / s])]
         begin = np.concatenate(parts)
         rng = np.random.default_rng(seed_for(self.seed, "worth", number))
-        z = rng.standard_normal(len(begin))
+        z, none = rng.standard_normal(len(begin)), np.empty(0)
 
-        def residuals(x: FloatArray) -> FloatArray:
-            curves = likelihood.curves(x)
-            new = [] if record is None else [record.whitened(likelihood, x)]
-            if curves is None or any(part is None for part in new):
+        def residuals_all(X: FloatArray, led: bool = False) -> list[FloatArray]:
+            curves = likelihood.curves_all(X, led)
+            new = [none] * len(X) if record is None else record.whitened(likelihood, X, led)
+            return [row(*one) for one in zip(X, curves, new, strict=True)]
+
+        def row(x: FloatArray, curves: FloatArray | None, new: FloatArray | None) -> FloatArray:
+            if curves is None or new is None:
                 return np.full(len(begin), FAILED)
             white = self.lasting.whiten(likelihood.whiten(curves - here)) / s
-            extra = [part / s for part in new if part is not None]
-            return np.concatenate([white, linear.product(known, x - x0), *extra]) - z
+            return np.concatenate([white, linear.product(known, x - x0), new / s]) - z
+
+        def residuals(x: FloatArray) -> FloatArray:
+            return residuals_all(x[None])[0]
 
         def jacobian(x: FloatArray, r: FloatArray) -> FloatArray:
-            def beside(X: FloatArray) -> list[FloatArray | None]:
-                return [residuals(there) for there in X]
+            return derivatives(partial(residuals_all, led=True), x, r)[0]
 
-            return derivatives(beside, x, r, order=1)[0]
-
-        return minimise(residuals, jacobian, x0, ENOUGH, begin=begin, order=1).x
+        return minimise(residuals, jacobian, x0, ENOUGH, begin=begin).x
 
 
 def spreads(

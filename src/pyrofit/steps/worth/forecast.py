@@ -33,13 +33,19 @@ def simulated_curves(
     experiment: Experiment,
     requests: Mapping[str, Request],
     X: FloatArray,
+    led: bool = False,
 ) -> list[FloatArray | None]:
-    """Return the curves of a test, one after the other, of sets; None where a run fails."""
+    """Return the curves of a test, one after the other, of sets; None where a run fails.
+
+    The sets may be ``led`` by the first one, see `pyrofit.simulate.simulate_slabs`.
+    """
     problem = likelihood.problem
     columns = dict(zip(problem.names, likelihood.values(X).T, strict=True))
     values: Values = {**problem.fixed, **columns}
     simulate = kind_of(experiment).simulate
-    [runs] = simulate([experiment], problem.material, values, [requests], problem.accuracy, len(X))
+    [runs] = simulate(
+        [experiment], problem.material, values, [requests], problem.accuracy, len(X), led
+    )
     return [
         np.concatenate([run.signals[s] for s in requests]) if run.status.finished else None
         for run in runs
@@ -52,12 +58,12 @@ def forecast_test(
     """Return curves and derivatives of a test at x; None where a run does not finish."""
 
     def curves(X: FloatArray) -> list[FloatArray | None]:
-        return simulated_curves(likelihood, experiment, requests, X)
+        return simulated_curves(likelihood, experiment, requests, X, led=True)
 
     here = curves(x[None])[0]
     if here is None:
         return None
-    slopes, found = derivatives(curves, x, here, order=2)
+    slopes, found = derivatives(curves, x, here)
     if not np.all(found):
         return None
     ends = np.cumsum([request.time_s.size for request in requests.values()])[:-1]
@@ -102,13 +108,20 @@ class ForecastRecord:
         parts = [n.whiten(self.forecast.slopes[s]) for s, n in self.noise.items()]
         return self.lasting.whiten(np.concatenate(parts))
 
-    def whitened(self, likelihood: Likelihood, x: FloatArray) -> FloatArray | None:
-        """Return the whitened differences of the curves at x and at the best fit."""
+    def whitened(
+        self, likelihood: Likelihood, X: FloatArray, led: bool = False
+    ) -> list[FloatArray | None]:
+        """Return the whitened differences of the curves of sets from those of the best fit.
+
+        The sets may be ``led`` by the first one, see `pyrofit.simulate.simulate_slabs`.
+        """
         asked = {s: self.forecast.requests[s] for s in self.noise}
-        there = simulated_curves(likelihood, self.forecast.experiment, asked, x[None])[0]
-        if there is None:
-            return None
         ends = np.cumsum([r.time_s.size for r in asked.values()])[:-1]
-        parts = zip(self.noise.items(), np.split(there, ends), strict=True)
-        white = [n.whiten(c - self.forecast.curves[s]) for (s, n), c in parts]
-        return self.lasting.whiten(np.concatenate(white))
+
+        def white(there: FloatArray) -> FloatArray:
+            parts = zip(self.noise.items(), np.split(there, ends), strict=True)
+            found = [n.whiten(c - self.forecast.curves[s]) for (s, n), c in parts]
+            return self.lasting.whiten(np.concatenate(found))
+
+        curves = simulated_curves(likelihood, self.forecast.experiment, asked, X, led)
+        return [None if there is None else white(there) for there in curves]
