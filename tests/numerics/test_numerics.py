@@ -8,7 +8,7 @@ import sys
 import numpy as np
 import pytest
 import scipy.linalg
-from scipy.optimize import lsq_linear, minimize
+from scipy.optimize import minimize
 
 from pyrofit.numerics import bands, fitting, functions, linear
 from pyrofit.solver.arrays import FloatArray
@@ -215,24 +215,6 @@ def test_banded_factor_is_that_of_the_whole_matrix(lags: tuple[float, ...]) -> N
 # --- Fitting ----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("seed", range(30))
-def test_least_squares_within_limits_are_those_of_scipy(seed: int) -> None:
-    rng = np.random.default_rng(seed)
-    n = int(rng.integers(1, 12))
-    a, b = rng.standard_normal((n + 3, n)) * np.exp(rng.normal(size=n)), rng.normal(size=n + 3)
-    low, high = -rng.uniform(0.0, 0.3, n), rng.uniform(1e-3, 0.3, n)
-    low[rng.random(n) < 0.2] = 0.0
-    x = fitting.within_limits(a.T @ a, -a.T @ b, low, high)
-    best = lsq_linear(a, b, (low, high), method="bvls", tol=1e-14).x
-    assert np.all((x >= low) & (x <= high))
-    assert np.sum((a @ x - b) ** 2) <= np.sum((a @ best - b) ** 2) * (1.0 + 1e-10)
-
-
-def test_limits_that_meet_hold_a_number() -> None:
-    x = fitting.within_limits(np.eye(2), -np.ones(2), np.zeros(2), np.array([0.0, 5.0]))
-    assert x.tolist() == [0.0, 1.0]
-
-
 def test_descent_finds_the_bottom_of_a_bent_valley() -> None:
     def valley(x: FloatArray) -> FloatArray:
         return np.array([10.0 * (x[1] - x[0] ** 2), 1.0 - x[0]])
@@ -255,7 +237,8 @@ def test_nelder_and_mead_takes_the_way_of_scipy_and_ends_without_a_way() -> None
 
 ALL = """
 import hashlib, numpy as np
-from pyrofit.numerics import bands, fitting, functions as f, linear
+from pyrofit.estimate.quadratic import least_within
+from pyrofit.numerics import bands, functions as f, linear
 rng = np.random.default_rng(0)
 total = hashlib.sha256()
 x = rng.uniform(-20.0, 20.0, 3001)
@@ -271,7 +254,7 @@ for rows, columns in ((7, 3), (300, 31), (60, 60)):
     found += [thin, linear.correlation(a.T), linear.product(b, a)]
     found += [linear.least_squares(a, b), linear.polynomial(b, b**2 + a[:, 0], 2)]
     low, high = np.full(columns, -0.01), np.full(columns, 0.02)
-    found += [fitting.within_limits(square, linear.product(a.T, b), low, high)]
+    found += [least_within(square, linear.product(a.T, b), low, high)]
     found += [bands.solve_lower(bands.cholesky((0.3, -0.2), rows), a)]
     for part in found:
         total.update(np.ascontiguousarray(part).tobytes())

@@ -12,7 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pyrofit.numerics import fitting, linear
+from pyrofit.estimate.quadratic import least_within
+from pyrofit.numerics import linear
 from pyrofit.numerics.columns import Columns
 from pyrofit.solver.arrays import FloatArray
 
@@ -207,7 +208,7 @@ def _step(
         for share in RAISED:  # parameters that do the same have a curvature of rounding
             more = share * np.diag(square).max(initial=0.0)
             with contextlib.suppress(np.linalg.LinAlgError):
-                return fitting.within_limits(raised + more * np.eye(x.size), slope, -x, 1.0 - x)
+                return least_within(raised + more * np.eye(x.size), slope, -x, 1.0 - x)
         raise np.linalg.LinAlgError("the derivatives are not finite")
 
     # 1/length is nearly a line over the damping; of large dampings its slope is 1/|g|.

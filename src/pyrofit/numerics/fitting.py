@@ -1,75 +1,16 @@
-"""Least squares within limits, and searches without derivatives, in an order that is fixed."""
+"""Least squares, and searches without derivatives, in an order that is fixed."""
 
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pyrofit.numerics import linear
 from pyrofit.numerics.functions import Floats
-
-Flags = NDArray[np.bool_]
 
 _MOST_STEPS = 100
 _MOST_REFUSED = 15
 _DIFFERENCE = 6e-6
 """Step of a difference quotient, the cube root of the rounding of numbers."""
-_LEAST_SLOPE = 1e-13
-"""Slopes at a limit count as zero below this share of the largest one."""
-
-
-def within_limits(square: Floats, slope: Floats, low: Floats, high: Floats) -> Floats:
-    """Return x of least x^T B x / 2 + g^T x within limits, B symmetric positive definite.
-
-    Active sets as of Stark and Parker (1995, Comput. Stat. 10, 129).
-
-    Parameters
-    ----------
-    square, slope
-        B of shape (n, n) and g of shape (n,).
-    low, high
-        Limits of x, shape (n,); they may be infinite.
-
-    Raises
-    ------
-    numpy.linalg.LinAlgError
-        B is not positive definite.
-    """
-    x = np.clip(-linear.solve(square, slope), low, high)
-    free = (x > low) & (x < high)
-    if free.all():
-        return x
-    for _ in range(10 * x.size):
-        x, free = _inside(square, slope, low, high, x, free)
-        g = slope + linear.product(square, x)
-        falls = np.where(x <= low, -g, np.where(x >= high, g, 0.0))
-        falls[free | (low >= high)] = 0.0
-        k = int(falls.argmax()) if falls.size else 0
-        if not falls.size or falls[k] <= _LEAST_SLOPE * float(np.max(np.abs(slope))):
-            break
-        free[k] = True
-    return x
-
-
-def _inside(
-    square: Floats, slope: Floats, low: Floats, high: Floats, x: Floats, free: Flags
-) -> tuple[Floats, Flags]:
-    """Return the best x and the numbers that move; those that meet a limit stay there."""
-    while free.any():
-        end = x.copy()
-        pull = slope[free] + linear.product(square[np.ix_(free, ~free)], x[~free])
-        end[free] = -linear.solve(square[np.ix_(free, free)], pull)
-        beyond = (end < low) | (end > high)
-        if not beyond.any():
-            return end, free
-        limit = np.where(end < low, low, high)
-        share = np.full(x.size, np.inf)
-        share[beyond] = (limit[beyond] - x[beyond]) / (end[beyond] - x[beyond])
-        k = int(share.argmin())
-        x = np.clip(x + share[k] * (end - x), low, high)
-        x[k] = limit[k]
-        free = free & (np.arange(x.size) != k)
-    return x, free
 
 
 def least_squares(

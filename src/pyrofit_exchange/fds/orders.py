@@ -5,6 +5,7 @@ from functools import cache
 
 import numpy as np
 
+from pyrofit.estimate.quadratic import least_within
 from pyrofit.numerics import fitting, functions, linear
 from pyrofit.solver.arrays import FloatArray
 
@@ -44,7 +45,7 @@ def first_order_sum(order: float) -> tuple[tuple[float, float], ...]:
         matrix = functions.exp(-functions.exp(logs)[None, :] * tau[:, None])
         square = linear.gram(matrix) + 1e6
         pull = linear.product(matrix.T, left) + 1e6
-        weights = fitting.within_limits(square, -pull, np.zeros(parts), np.full(parts, np.inf))
+        weights = least_within(square, -pull, np.zeros(parts), np.full(parts, np.inf))
         return weights, linear.product(matrix, weights) - left
 
     logs = fitting.least_squares(lambda logs: fitted(logs)[1], start, gain=1e-15)
