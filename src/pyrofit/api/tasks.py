@@ -16,13 +16,7 @@ from pyrofit.api.choices import (
     signals_of,
     used_by,
 )
-from pyrofit.config import (
-    Study,
-    TermSpec,
-    calibration_channels,
-    diagnosed_parameters,
-    kinetics_of,
-)
+from pyrofit.config import Study, TermSpec, calibration_channels, diagnosed_parameters, kinetics_of
 from pyrofit.errors import StudyError
 from pyrofit.estimate.problem import Problem
 from pyrofit.seeds import seed_for

@@ -11,14 +11,7 @@ import traceback
 from collections.abc import Iterator, Sequence
 from types import FrameType
 
-from pyrofit.cli import (
-    diagnosing,
-    fitting,
-    running,
-    showing,
-    starting,
-    stepping,
-)
+from pyrofit.cli import diagnosing, fitting, running, showing, starting, stepping
 from pyrofit.cli.parser import Parser
 from pyrofit.discovery import added, loaded
 from pyrofit.errors import BY_RUN, INTERRUPTED, RUN, PyrofitError

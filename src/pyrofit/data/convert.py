@@ -10,14 +10,7 @@ from pyrofit.data.csvfile import FileTable, FloatArray
 from pyrofit.data.spec import SeriesSpec
 from pyrofit.errors import DataError, suggest
 from pyrofit.quantities.base import LIMITS, Quantity
-from pyrofit.quantities.units import (
-    PER_AREA,
-    PER_MASS,
-    PER_START,
-    SCALES,
-    ZEROS_K,
-    unit_key,
-)
+from pyrofit.quantities.units import PER_AREA, PER_MASS, PER_START, SCALES, ZEROS_K, unit_key
 
 TARED = 0.05
 """Share of the range of masses within which the first one of a tared balance lies about zero."""

@@ -11,12 +11,7 @@ from pyrofit.data.checks import check_finite, check_limits, check_order, check_z
 from pyrofit.data.convert import convert_columns
 from pyrofit.data.csvfile import FileTable, read_table
 from pyrofit.data.download import sha256
-from pyrofit.data.gaps import (
-    without_doubles,
-    without_gaps,
-    without_stops,
-    without_times_before,
-)
+from pyrofit.data.gaps import without_doubles, without_gaps, without_stops, without_times_before
 from pyrofit.data.spec import SeriesSpec
 from pyrofit.errors import DataError, suggest
 from pyrofit.quantities.base import LIMITS, Quantity

@@ -4,13 +4,7 @@ from typing import Annotated, Any, Self
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
-from pyrofit.model.base import (
-    POSITIVE,
-    Number,
-    Part,
-    Positive,
-    Rule,
-)
+from pyrofit.model.base import POSITIVE, Number, Part, Positive, Rule
 
 RESOLVED = Rule(
     lambda x: x >= 4.0, "must be at least 4 K: a property is known every 5 K, a peak has its area"

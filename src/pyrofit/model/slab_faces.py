@@ -4,12 +4,7 @@ from typing import Self
 
 from pydantic import Field, model_validator
 
-from pyrofit.model.base import (
-    Fraction,
-    NotNegative,
-    Number,
-    Part,
-)
+from pyrofit.model.base import Fraction, NotNegative, Number, Part
 from pyrofit.model.time_table import CoefficientOverTime, FluxOverTime, TemperatureOverTime
 
 

@@ -11,13 +11,7 @@ from pyrofit.data.stated import Stated
 from pyrofit.data.suspect import FALLEN
 from pyrofit.experiments import measurable
 from pyrofit.new_study.abscissae import abscissa_candidates
-from pyrofit.new_study.headers import (
-    is_error,
-    is_usual,
-    may_be,
-    root_of_header,
-    stem_of,
-)
+from pyrofit.new_study.headers import is_error, is_usual, may_be, root_of_header, stem_of
 from pyrofit.new_study.reasons import is_empty, is_stated_change, why_unused
 from pyrofit.new_study.units import guessed_unit, kind_of_unit, kinds_of_units, stated_unit
 from pyrofit.quantities import known_quantities

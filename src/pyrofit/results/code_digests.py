@@ -2,9 +2,7 @@
 
 from collections.abc import Iterable
 
-from pyrofit.config import (
-    Study,
-)
+from pyrofit.config import Study
 from pyrofit.config.keys.terms import TermSpec
 from pyrofit.plugins import code_digest
 

@@ -18,12 +18,7 @@ from pyrofit.analysis.uses import predicted_labels
 from pyrofit.analysis.wall_times import wall_times
 from pyrofit.config import Study
 from pyrofit.estimate.optimisers import OPTIMISERS
-from pyrofit.results import (
-    identification,
-    isoconversional,
-    prediction,
-    searches,
-)
+from pyrofit.results import identification, isoconversional, prediction, searches
 from pyrofit.results.files import Results
 from pyrofit.results.goodness import Goodness
 from pyrofit.results.step import exists

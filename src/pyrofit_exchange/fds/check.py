@@ -15,12 +15,7 @@ from pyrofit.external.fds import NO_FDS
 from pyrofit.logs import Tell
 from pyrofit.results.files import write_csv, write_text
 from pyrofit.solver.outputs import BACK, MASS_FRACTION, RATE
-from pyrofit_exchange.fds.agreement import (
-    Agreement,
-    heated_agreement,
-    levels,
-    slab_agreement,
-)
+from pyrofit_exchange.fds.agreement import Agreement, heated_agreement, levels, slab_agreement
 from pyrofit_exchange.fds.export import WrittenDeck, decks, export, text_of_file
 from pyrofit_exchange.fds.read import read_devc, read_tga
 from pyrofit_exchange.fds.run import LIMIT_S, run_deck, version_text

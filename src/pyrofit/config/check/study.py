@@ -8,11 +8,7 @@ from pyrofit.config.check.stages import check_stages
 from pyrofit.config.check.unmeasured import unmeasured
 from pyrofit.config.expand.programs import externals
 from pyrofit.config.keys.study import Study
-from pyrofit.config.uses import (
-    numbers_in_keys,
-    parameters_in,
-    parameters_of_heated,
-)
+from pyrofit.config.uses import numbers_in_keys, parameters_in, parameters_of_heated
 from pyrofit.config.words import require
 from pyrofit.effects import known_effects
 from pyrofit.errors import suggest

@@ -11,12 +11,7 @@ from pyrofit.diagnose.base.fitted import FittedModel, Key, finishes, strengths_a
 from pyrofit.diagnose.base.model import strength_of
 from pyrofit.diagnose.judge.final_fits import FinalFits
 from pyrofit.diagnose.judge.findings import Judged, Verdict
-from pyrofit.diagnose.judge.intervals import (
-    ridges,
-    strengths,
-    wide_intervals,
-    with_all_forms,
-)
+from pyrofit.diagnose.judge.intervals import ridges, strengths, wide_intervals, with_all_forms
 from pyrofit.diagnose.judge.ridges import Ridge
 from pyrofit.diagnose.search.score_test import confusability
 from pyrofit.diagnose.search.step import SearchStep

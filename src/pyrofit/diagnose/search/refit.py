@@ -6,14 +6,7 @@ import numpy as np
 
 from pyrofit.diagnose.base.descent import descend_chi_square
 from pyrofit.diagnose.base.fitted import FittedModel, lower_of
-from pyrofit.diagnose.base.model import (
-    Model,
-    extended,
-    fraction,
-    model_of,
-    name_of,
-    strength_of,
-)
+from pyrofit.diagnose.base.model import Model, extended, fraction, model_of, name_of, strength_of
 from pyrofit.diagnose.search.score_test import Screening, change_by_effect
 from pyrofit.effects import known_effects
 from pyrofit.effects.base import Quantity

@@ -7,12 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pyrofit.config import Study
-from pyrofit.steps.preview.corrections import (
-    LIMITS,
-    ORDER,
-    LikelyCause,
-    possible_corrections,
-)
+from pyrofit.steps.preview.corrections import LIMITS, ORDER, LikelyCause, possible_corrections
 from pyrofit.steps.preview.fit import Nearest, nearest, relative_misfits
 from pyrofit.steps.preview.reach import (
     OUTSIDE,
