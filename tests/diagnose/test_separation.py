@@ -7,11 +7,12 @@ import pytest
 from free_twins import MLR, SLABS, STEP, nothing, substance, twin
 
 from pyrofit.diagnose.advise.candidate_experiments import ideas
-from pyrofit.diagnose.advise.separation import Design, next_experiments
+from pyrofit.diagnose.advise.separation import next_experiments
 from pyrofit.diagnose.base.descent import Fit
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.search.refit import look_at, with_effect
 from pyrofit.estimate.derivatives import SECANT
+from pyrofit.results.diagnosis_schema import OfExperiment
 from pyrofit.simulate import simulate_tga
 from pyrofit.solver.curves import Request
 
@@ -30,12 +31,12 @@ def k_against_c() -> list[FittedModel]:
 
 
 @pytest.fixture(scope="module")
-def found(k_against_c: list[FittedModel]) -> dict[str, Design]:
+def found(k_against_c: list[FittedModel]) -> dict[str, OfExperiment]:
     return {design.design: design for design in next_experiments(k_against_c)}
 
 
 def test_insulated_back_or_thicker_sample_tells_conductivity_from_heat_capacity(
-    found: dict[str, Design],
+    found: dict[str, OfExperiment],
 ) -> None:
     best = next(iter(found.values()))
     assert "insulated_back" in best.design or "thickness" in best.design
@@ -46,7 +47,7 @@ def test_insulated_back_or_thicker_sample_tells_conductivity_from_heat_capacity(
     )
 
 
-def test_designs_are_sorted_and_name_their_pair(found: dict[str, Design]) -> None:
+def test_designs_are_sorted_and_name_their_pair(found: dict[str, OfExperiment]) -> None:
     sizes = [design.separation_sd for design in found.values()]
     assert sizes == sorted(sizes, reverse=True)
     assert min(sizes) >= 0.0
@@ -54,7 +55,7 @@ def test_designs_are_sorted_and_name_their_pair(found: dict[str, Design]) -> Non
     assert all(d.pairs["k_T | c_T"] == d.separation_sd for d in found.values())
 
 
-def test_back_temperature_never_takes_separation_away(found: dict[str, Design]) -> None:
+def test_back_temperature_never_takes_separation_away(found: dict[str, OfExperiment]) -> None:
     with_back = [name for name in found if name.endswith("+back_temperature")]
     assert len(with_back) > 5
     for name in with_back:

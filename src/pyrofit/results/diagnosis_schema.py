@@ -1,6 +1,6 @@
 """Schema of ``diagnosis.json``: written, read and documented from these records."""
 
-from typing import Literal, get_args
+from typing import Literal
 
 from pydantic import Field
 
@@ -283,7 +283,3 @@ class Diagnosis(Record):
     extended_study: str = Field(
         description="file of the study with the effects, in the same folder; empty without effects"
     )
-
-
-VERDICTS: tuple[str, ...] = get_args(Kind)
-"""Kinds of verdict of the diagnosis."""

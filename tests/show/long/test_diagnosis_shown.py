@@ -4,7 +4,7 @@ import json
 import re
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import pandas as pd
 import pytest
@@ -18,7 +18,7 @@ from pyrofit.errors import DataError
 from pyrofit.results.diagnosis import read
 from pyrofit.results.diagnosis import read_curves as curves_of
 from pyrofit.results.diagnosis_candidates import OfCandidate
-from pyrofit.results.diagnosis_schema import VERDICTS, Diagnosis, OfVerdict
+from pyrofit.results.diagnosis_schema import Diagnosis, Kind, OfVerdict
 from pyrofit.results.files import Results, write_csv, write_json, write_text
 from pyrofit.results.schema_page import schema_page
 from pyrofit.show import diagnosis_page as report
@@ -35,7 +35,7 @@ from pyrofit.show.diagnosis_page import (
 from pyrofit.show.report import write_report
 from pyrofit.show.sections import FIGURES
 
-KINDS = VERDICTS
+KINDS = get_args(Kind)
 
 
 def table(root: Path, kind: str, name: str) -> pd.DataFrame:

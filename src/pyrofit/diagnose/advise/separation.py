@@ -31,30 +31,9 @@ from pyrofit.estimate.posterior import curvature
 from pyrofit.experiments.base import Idea
 from pyrofit.numerics import linear
 from pyrofit.parallel import parallel_map
+from pyrofit.results.diagnosis_schema import OfExperiment
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.curves import Curves, Request
-
-
-@dataclass(frozen=True)
-class Design:
-    """A measurement that was not made.
-
-    Parameters
-    ----------
-    design
-        Short name.
-    words
-        The same in words.
-    separation_sd
-        By how many standard deviations it separates those two models that it separates least.
-    pairs
-        The same of each two models.
-    """
-
-    design: str
-    words: str
-    separation_sd: float
-    pairs: dict[str, float]
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,7 +47,7 @@ class _Forecast:
     spread: dict[str, FloatArray]
 
 
-def next_experiments(trials: Sequence[FittedModel], processes: int = 1) -> list[Design]:
+def next_experiments(trials: Sequence[FittedModel], processes: int = 1) -> list[OfExperiment]:
     """Return new measurements, that which separates fitted models best first.
 
     Parameters
@@ -87,7 +66,7 @@ def next_experiments(trials: Sequence[FittedModel], processes: int = 1) -> list[
     return sorted(found, key=lambda d: (d.separation_sd, sum(d.pairs.values())), reverse=True)
 
 
-def _designs(trials: Sequence[FittedModel], idea: Idea) -> list[Design]:
+def _designs(trials: Sequence[FittedModel], idea: Idea) -> list[OfExperiment]:
     """Return an idea with each choice of its signals; none where a simulation does not finish."""
     kinds = {s: kind_of_record(trials[0].model.base, s) for s in idea.most_quantities}
     requests = requests_of(trials, idea, kinds)
@@ -104,7 +83,9 @@ def _designs(trials: Sequence[FittedModel], idea: Idea) -> list[Design]:
             f"{names[i]} | {names[j]}": _separation(known[i], known[j], of)
             for i, j in combinations(range(len(known)), 2)
         }
-        found.append(Design(design, words, min(each.values()), each))
+        least = min(each.values())
+        row = OfExperiment(design=design, words=words, separation_sd=least, pairs=each)
+        found.append(row)
     return found
 
 

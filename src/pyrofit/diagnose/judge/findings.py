@@ -1,18 +1,16 @@
 """Parts of a verdict: effects, those they cannot be told from, and the reasons."""
 
 from dataclasses import dataclass
-from typing import Literal
 
 from pyrofit.diagnose.base.fitted import FittedModel, Key
 from pyrofit.diagnose.judge.claim_tests import Trust
 from pyrofit.diagnose.judge.other_terms import OtherTerm
 from pyrofit.diagnose.search.stepwise import Search
 from pyrofit.effects import known_effects
+from pyrofit.results.diagnosis_schema import Kind, OfSuspect
 
 ORDER = ("apparatus", "environment", "material")
 """The families that an experimenter can check come first."""
-
-Kind = Literal["none", "named", "ambiguous", "multiple", "partly", "unknown"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,22 +138,6 @@ class Finding:
         return any(judged.trust.outvoted for judged in self.kept)
 
 
-@dataclass(frozen=True)
-class Suspect:
-    """A candidate for the misfit that a model leaves unexplained.
-
-    Parameters
-    ----------
-    effect
-        Its name.
-    gain
-        Fall of chi-square that the linear forecast of the score test promises.
-    """
-
-    effect: str
-    gain: float
-
-
 @dataclass(frozen=True, eq=False)
 class Verdict:
     """The claim, with the findings it rests on and the reasons, in words."""
@@ -165,7 +147,7 @@ class Verdict:
     """The search, ended with the model that the verdict is about."""
     findings: tuple[Finding, ...]
     reasons: tuple[str, ...]
-    suspects: tuple[Suspect, ...] = ()
+    suspects: tuple[OfSuspect, ...] = ()
     """Where the findings explain a part only: the leading candidates for the rest."""
     taken_away: tuple[tuple[str, str], ...] = ()
     """Effects of the search's end that are not claimed, each with the reason, in order."""

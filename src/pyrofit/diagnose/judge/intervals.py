@@ -7,11 +7,11 @@ import numpy as np
 from pyrofit.diagnose.base.descent import Fit, descend_chi_square, refreshed
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import Model, fraction, model_of, name_of
-from pyrofit.diagnose.judge.ridges import Ridge, ridge_of
+from pyrofit.diagnose.judge.ridges import ridge_of
 from pyrofit.effects import known_effects
 from pyrofit.estimate.posterior import interval as interval_of
 from pyrofit.parallel import parallel_map
-from pyrofit.results.diagnosis_candidates import OfStrength
+from pyrofit.results.diagnosis_candidates import OfRidge, OfStrength
 from pyrofit.solver.arrays import FloatArray
 
 Interval = tuple[float, float]
@@ -74,7 +74,7 @@ def wide_intervals(models: Iterable[FittedModel]) -> dict[str, Interval]:
     return found
 
 
-def ridges(trial: FittedModel, formed: Mapping[str, FittedModel]) -> list[Ridge]:
+def ridges(trial: FittedModel, formed: Mapping[str, FittedModel]) -> list[OfRidge]:
     """Return the products of parameters that the data determine, by effect with several.
 
     ``formed`` are the models of `with_all_forms`.

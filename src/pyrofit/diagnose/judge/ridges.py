@@ -9,34 +9,12 @@ relative standard deviation is sqrt(a^T R a).
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from pyrofit.numerics import linear
+from pyrofit.results.diagnosis_candidates import OfRidge
 from pyrofit.solver.arrays import FloatArray
-
-
-@dataclass(frozen=True)
-class Ridge:
-    """A product of powers of an effect's parameters that the data determine better than each.
-
-    Parameters
-    ----------
-    effect
-        The effect.
-    exponents
-        Powers by parameter, that of the strength, or else the largest one, is 1.
-    relative_sd
-        Relative standard deviation of the product.
-    alone
-        The same of each parameter.
-    """
-
-    effect: str
-    exponents: dict[str, float]
-    relative_sd: float
-    alone: dict[str, float]
 
 
 def ridge_of(
@@ -46,11 +24,12 @@ def ridge_of(
     covariance: FloatArray,
     open_sd: float,
     least_gain: float,
-) -> Ridge | None:
+) -> OfRidge | None:
     """Return the best known product of an effect's parameters, None where each one is known.
 
     Only positive parameters with a relative standard deviation of ``open_sd`` or more take part.
-    The product must be known ``least_gain`` times better than the first of them.
+    The product must be known ``least_gain`` times better than the first of them. The power of the
+    strength is 1, or else the largest one.
 
     Parameters
     ----------
@@ -73,9 +52,9 @@ def ridge_of(
     if np.count_nonzero(a) < 2 or least_gain * product > alone[unit]:
         return None
     parts = [(names[i], float(b), float(s)) for i, b, s in zip(left_open, a, alone, strict=True)]
-    return Ridge(
-        effect,
-        {name: power for name, power, _ in parts if power},
-        product,
-        {name: own for name, power, own in parts if power},
+    return OfRidge(
+        effect=effect,
+        exponents={name: power for name, power, _ in parts if power},
+        relative_sd=product,
+        alone={name: own for name, power, own in parts if power},
     )

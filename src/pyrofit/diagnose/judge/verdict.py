@@ -7,7 +7,7 @@ import numpy as np
 
 from pyrofit.diagnose.base.fitted import FittedModel, up_to_date
 from pyrofit.diagnose.base.prediction import HELD_OUT
-from pyrofit.diagnose.judge.findings import Finding, Judged, Kind, Suspect, Verdict
+from pyrofit.diagnose.judge.findings import Finding, Judged, Verdict
 from pyrofit.diagnose.judge.inflation import inflation_by_misfit
 from pyrofit.diagnose.judge.other_terms import other_terms
 from pyrofit.diagnose.judge.places import end_without_superfluous, findings_of, with_end
@@ -16,6 +16,7 @@ from pyrofit.diagnose.search.step import SearchContext
 from pyrofit.diagnose.search.stepwise import Search
 from pyrofit.effects import known_effects
 from pyrofit.model.slab import SlabExperiment
+from pyrofit.results.diagnosis_schema import Kind, OfSuspect
 
 ONE_FLUX = "only the mass loss rate at one flux is calibrated"
 """A reason that leaves every claim open."""
@@ -185,11 +186,12 @@ def _against(finding: Finding) -> str:
     return "; ".join(_infirm(finding))
 
 
-def _suspects(found: Search, processes: int) -> tuple[Suspect, ...]:
+def _suspects(found: Search, processes: int) -> tuple[OfSuspect, ...]:
     """Return the candidates that promise to explain most of the final model's misfit."""
     names = [look.effect for look in found.rounds[0].looks if look.effect not in found.end.effects]
     looks = look_at(found.end, names, processes)
-    gains = [Suspect(look.effect, found.end.fit.chi2 - float(look.ahead.min())) for look in looks]
+    chi2 = found.end.fit.chi2
+    gains = [OfSuspect(effect=k.effect, gain=chi2 - float(k.ahead.min())) for k in looks]
     most = found.end.settings.most_suspects
     leading = sorted(gains, key=lambda suspect: -suspect.gain)[:most]
     return tuple(suspect for suspect in leading if suspect.gain > found.spare)

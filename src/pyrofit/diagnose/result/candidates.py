@@ -1,7 +1,6 @@
 """Candidates of a diagnosis as `diagnosis.json` holds them."""
 
 from collections.abc import Mapping
-from dataclasses import asdict
 from types import MappingProxyType
 from typing import NamedTuple
 
@@ -12,12 +11,11 @@ from pyrofit.diagnose.base.model import strength_of
 from pyrofit.diagnose.judge.final_fits import FinalFits
 from pyrofit.diagnose.judge.findings import Judged, Verdict
 from pyrofit.diagnose.judge.intervals import ridges, strengths, wide_intervals, with_all_forms
-from pyrofit.diagnose.judge.ridges import Ridge
 from pyrofit.diagnose.search.score_test import confusability
 from pyrofit.diagnose.search.step import SearchStep
 from pyrofit.diagnose.search.stepwise import Search
 from pyrofit.effects import known_effects
-from pyrofit.results.diagnosis_candidates import OfCandidate, OfRidge
+from pyrofit.results.diagnosis_candidates import OfCandidate
 from pyrofit.results.diagnosis_schema import OfConfusability, OfScreen
 
 
@@ -72,7 +70,7 @@ def candidate_records(
             gain=step.start.fit.chi2 - trial.fit.chi2,
             penalised=trial.penalised,
             parameters=strengths(fit, wide if is_leading else {}),
-            ridges=[_ridge(r) for r in ridges(fit, formed[trial.key])] if is_leading else [],
+            ridges=ridges(fit, formed[trial.key]) if is_leading else [],
             adequate=found.end_lack.adequate if trial.key == found.end.key else None,
             disagree=judgement.disagree,
             predictions=dict(judgement.predictions),
@@ -93,10 +91,6 @@ def models(found: Search) -> list[tuple[SearchStep, FittedModel]]:
     for step, trial in sorted(fits, key=lambda fit: fit[1].penalised):
         models.setdefault(trial.key, (step, trial))
     return list(models.values())
-
-
-def _ridge(ridge: Ridge) -> OfRidge:
-    return OfRidge(**asdict(ridge))
 
 
 class _Judgement(NamedTuple):

@@ -10,7 +10,6 @@ from pyrofit.config import Study, candidate_effects
 from pyrofit.config.resolve import obstacle
 from pyrofit.cost.distances import root_mean_square
 from pyrofit.diagnose.advise.free_corrections import Probe
-from pyrofit.diagnose.advise.separation import Design
 from pyrofit.diagnose.base.fitted import FittedModel
 from pyrofit.diagnose.base.model import Base, model_of
 from pyrofit.diagnose.base.prediction import HELD_OUT, prediction_of
@@ -43,7 +42,6 @@ from pyrofit.results.diagnosis_schema import (
     OfProbe,
     OfProfile,
     OfSolver,
-    OfSuspect,
     OfTakenAway,
     OfVerdict,
     OfWindow,
@@ -106,7 +104,7 @@ def advised(
     found: Diagnosis,
     profiles: list[OfProfile],
     probes: Iterable[Probe],
-    designs: Iterable[Design],
+    designs: list[OfExperiment],
 ) -> Diagnosis:
     """Return the record of a diagnosis with advice."""
     # The coefficients of a probe stay out: its shape shows them.
@@ -121,8 +119,7 @@ def advised(
         )
         for p in probes
     ]
-    designed = [OfExperiment(**asdict(design)) for design in designs]
-    parts = {"profiles": profiles, "probes": shown, "next_experiment": designed}
+    parts = {"profiles": profiles, "probes": shown, "next_experiment": designs}
     return found.model_copy(update=parts)
 
 
@@ -150,7 +147,7 @@ def _verdict(verdict: Verdict) -> OfVerdict:
         confirmed=verdict.confirmed,
         words=sentences(verdict),
         reasons=list(verdict.reasons),
-        suspects=[OfSuspect(effect=s.effect, gain=s.gain) for s in verdict.suspects],
+        suspects=list(verdict.suspects),
         weights=group_weights(verdict.search),
         taken_away=[OfTakenAway(effect=e, reason=reason) for e, reason in verdict.taken_away],
     )

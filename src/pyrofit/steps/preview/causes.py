@@ -18,6 +18,7 @@ from pyrofit.steps.preview.reach import (
     all_reached,
     simulate_all,
 )
+from pyrofit.steps.preview.record import Likely
 from pyrofit.steps.preview.sets import Sets
 
 TRIED_SETS = 64
@@ -42,31 +43,6 @@ OF_LIMITS = 1.3
 BESIDE_BEST, BESIDE_LEAST = 3.0, 0.03
 """A cause is named up to so many times what the best one leaves, and so much more."""
 MOST_CAUSES = 4
-
-
-@dataclass(frozen=True)
-class Cause:
-    """A likely cause, and how well its correction works.
-
-    Parameters
-    ----------
-    cause
-        One of `corrections.ORDER`.
-    places
-        Experiments that the correction changes, or the parameter whose limits it widens.
-    words
-        The cause in words.
-    explained
-        Share of the squared difference between data and nearest set that the correction takes away.
-    left
-        Root mean square of what is left, over the range.
-    """
-
-    cause: str
-    places: tuple[str, ...]
-    words: str
-    explained: float
-    left: float
 
 
 def suspects(found: Mapping[Channel, Reached], left: Mapping[Channel, float]) -> list[Channel]:
@@ -99,7 +75,7 @@ def likely(
     suspected: Sequence[Channel],
     mostly: Collection[Channel],
     before: Nearest,
-) -> list[Cause]:
+) -> list[Likely]:
     """Return the causes whose corrections bring sets near the records, the likeliest first.
 
     Each correction is tried with a few sets, and the best ones are fitted. Limits are fitted where
@@ -134,7 +110,15 @@ def likely(
         allowed = FARTHEST if explained >= NEARLY_ALL else NEAR
         if max([*sizes, float(np.sqrt(left))]) > allowed:
             continue
-        found.append(Cause(cause.cause, cause.places, cause.words, explained, float(np.sqrt(left))))
+        found.append(
+            Likely(
+                cause=cause.cause,
+                places=list(cause.places),
+                words=cause.words,
+                explained=explained,
+                left=float(np.sqrt(left)),
+            )
+        )
     least = min((cause.left for cause in found), default=0.0)
     most = BESIDE_BEST * least + BESIDE_LEAST
     good = [cause for cause in found if cause.explained >= EXPLAINS and cause.left <= most]
@@ -145,15 +129,15 @@ def _mean_square(left: Mapping[Channel, float]) -> float:
     return float(np.mean(np.square(list(left.values())))) if left else 0.0
 
 
-def _rank(cause: Cause) -> tuple[float, int]:
+def _rank(cause: Likely) -> tuple[float, int]:
     return cause.left * (OF_LIMITS if cause.cause == LIMITS else 1.0), ORDER.index(cause.cause)
 
 
-def _distinct(causes: Iterable[Cause]) -> list[Cause]:
+def _distinct(causes: Iterable[Likely]) -> list[Likely]:
     """Return the best of each kind of cause at each place."""
-    best: dict[tuple[str, tuple[str, ...]], Cause] = {}
+    best: dict[tuple[str, ...], Likely] = {}
     for cause in causes:
-        best.setdefault((cause.cause, cause.places), cause)
+        best.setdefault((cause.cause, *cause.places), cause)
     return list(best.values())[:MOST_CAUSES]
 
 

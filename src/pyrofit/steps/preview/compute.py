@@ -111,16 +111,7 @@ def preview(study: Study, measurements: Measurements, count: int = SETS) -> Prev
         windows=[w for c, one in reached.items() for w in windows(case, c, one)],
         nearest=[record.NearestSet(experiment=e, signal=s, left=d) for (e, s), d in left.items()],
         far=is_far(left),
-        causes=[
-            record.Likely(
-                cause=one.cause,
-                places=list(one.places),
-                words=one.words,
-                explained=one.explained,
-                left=one.left,
-            )
-            for one in causes
-        ],
+        causes=causes,
         unmoved=unmoved(study, alone, sets.first(BASES), reached),
         held_up=[
             record.HeldUp(experiment=test, signal=signal, temperature_K=at)
