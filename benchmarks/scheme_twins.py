@@ -5,21 +5,23 @@ python benchmarks/scheme_twins.py OUTPUT.csv --draws 5
 
 import argparse
 import os
+import sys
 from dataclasses import replace
 from pathlib import Path
 
 os.environ["OPENBLAS_NUM_THREADS"] = "1"
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "support"))
 
 import numpy as np
 import pandas as pd
+from scheme_truths import SchemeTwin, make_scheme_twin, scheme_named
 
 from pyrofit.scheme.choice import choose_scheme
 from pyrofit.scheme.fit import FittedScheme, fit_posed
 from pyrofit.scheme.posed import pose_scheme
 from pyrofit.scheme.prediction import predict_records
-from pyrofit.scheme.schemes import Scheme, scheme_named
+from pyrofit.scheme.schemes import Scheme
 from pyrofit.scheme.settings import SchemeSettings
-from pyrofit.scheme.twins import SchemeTwin, make_scheme_twin
 
 TRUTHS = (
     "single",

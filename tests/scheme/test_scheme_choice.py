@@ -4,12 +4,12 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
+from scheme_truths import make_scheme_twin
 
 from pyrofit.scheme.choice import choose
 from pyrofit.scheme.noise import RecordScatter, deviance, log_density_of_noise, most_likely
 from pyrofit.scheme.schemes import Scheme
 from pyrofit.scheme.settings import SchemeSettings
-from pyrofit.scheme.twins import make_scheme_twin
 
 SETTINGS = SchemeSettings()
 

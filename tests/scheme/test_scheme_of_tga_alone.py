@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scheme_truths import make_scheme_twin, name_at_rate
 
 from pyrofit.config import Study, as_study
 from pyrofit.errors import StudyError
@@ -14,7 +15,6 @@ from pyrofit.scheme.posed import own, pose_scheme
 from pyrofit.scheme.records import rates_of, records_of
 from pyrofit.scheme.schemes import Scheme
 from pyrofit.scheme.settings import SchemeSettings
-from pyrofit.scheme.twins import make_scheme_twin, name_at_rate
 from pyrofit.solver.outputs import MASS_FRACTION
 
 RATES = (1.0, 10.0, 50.0)

@@ -5,6 +5,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from scheme_truths import FITTED_RATES, HELD_OUT_RATES, make_scheme_twin
 
 from pyrofit.config import Study
 from pyrofit.errors import StudyError
@@ -13,7 +14,6 @@ from pyrofit.scheme.posed import pose_scheme, template_of
 from pyrofit.scheme.records import rates_of, records_of
 from pyrofit.scheme.schemes import Scheme
 from pyrofit.scheme.settings import SchemeSettings
-from pyrofit.scheme.twins import FITTED_RATES, HELD_OUT_RATES, make_scheme_twin
 
 
 @cache

@@ -2,15 +2,15 @@
 
 import numpy as np
 import pytest
+from scheme_truths import all_schemes, draw_truth, make_scheme_twin, scheme_named, simulated_masses
 
 from pyrofit.errors import StudyError
 from pyrofit.scheme.arrangements import ARRANGEMENTS
 from pyrofit.scheme.arrangements.base import PREFIX
 from pyrofit.scheme.posed import pose_scheme
-from pyrofit.scheme.schemes import Scheme, all_schemes, scheme_named
+from pyrofit.scheme.schemes import Scheme
 from pyrofit.scheme.search import largest_first
 from pyrofit.scheme.settings import SchemeSettings
-from pyrofit.scheme.twins import draw_truth, make_scheme_twin, simulated_masses
 
 SETTINGS = SchemeSettings()
 SCHEMES = all_schemes(SETTINGS.most_reactions)

@@ -62,7 +62,7 @@ def read_json(path: Path, needs: Mapping[Keys, type] | None = None) -> dict[str,
         The file.
     needs
         Required content: the type of each value by the keys that lead to it, such as
-        ``{("starts", EACH, "cost"): float}``.
+        ``{("verdict", "kind"): str}``.
 
     Raises
     ------

@@ -9,30 +9,20 @@ import pandas as pd
 from pyrofit.errors import DataError
 
 Keys = tuple[str, ...]
-EACH = "*"
-"""Among keys: every item of a list."""
 AGAIN = "delete it and run again"
 _KINDS = {float: "a finite number", dict: "a mapping", list: "a list", str: "text"}
 
 
-def check_value(path: Path, part: Any, keys: Keys, kind: type, place: str = "") -> None:
+def check_value(path: Path, content: Any, keys: Keys, kind: type) -> None:
     """Refuse a result that lacks the value at the end of some keys, or has one of another type."""
-    if not keys:
-        number = isinstance(part, int | float) and not isinstance(part, bool)
-        if not (number and math.isfinite(part) if kind is float else isinstance(part, kind)):
-            raise DataError(f"{path}: '{place}' is not {_KINDS[kind]}; {AGAIN}")
-        return
-    key, *rest = keys
-    if key == EACH:
-        if not isinstance(part, list) or not part:
-            raise DataError(f"{path}: '{place}' is not a list of at least one; {AGAIN}")
-        for i, item in enumerate(part):
-            check_value(path, item, tuple(rest), kind, f"{place}.{i}")
-        return
-    place = f"{place}.{key}".removeprefix(".")
-    if not isinstance(part, dict) or key not in part:
-        raise DataError(f"{path}: '{place}' is missing in this result; {AGAIN}")
-    check_value(path, part[key], tuple(rest), kind, place)
+    for count, key in enumerate(keys, 1):
+        if not isinstance(content, dict) or key not in content:
+            place = ".".join(keys[:count])
+            raise DataError(f"{path}: '{place}' is missing in this result; {AGAIN}")
+        content = content[key]
+    number = isinstance(content, int | float) and not isinstance(content, bool)
+    if not (number and math.isfinite(content) if kind is float else isinstance(content, kind)):
+        raise DataError(f"{path}: '{'.'.join(keys)}' is not {_KINDS[kind]}; {AGAIN}")
 
 
 def check_rows(path: Path, frame: pd.DataFrame, names: Keys, wanted: list[Keys]) -> None:

@@ -3,7 +3,6 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from pyrofit.errors import StudyError, suggest
 from pyrofit.scheme.arrangements import ARRANGEMENTS
 
 PARALLEL = "parallel"
@@ -73,28 +72,3 @@ class Scheme:
             possible = {"lag": lag, "catalysis": self.reactions == 1}.get(extra, True)
             if possible and not getattr(self, extra):
                 yield replace(self, **{extra: True})  # type: ignore[arg-type]
-
-
-def all_schemes(most_reactions: int) -> dict[str, Scheme]:
-    """Return every scheme by name."""
-    found = {Scheme()}
-    ahead = [Scheme()]
-    while ahead:
-        new = set(ahead.pop().extensions(most_reactions, lag=True)) - found
-        found |= new
-        ahead += new
-    return {scheme.name: scheme for scheme in sorted(found)}
-
-
-def scheme_named(name: str, most_reactions: int) -> Scheme:
-    """Return a scheme by its name.
-
-    Raises
-    ------
-    StudyError
-        There is none of this name.
-    """
-    known = all_schemes(most_reactions)
-    if name not in known:
-        raise StudyError(f"unknown scheme '{name}'. {suggest(name, known)}")
-    return known[name]

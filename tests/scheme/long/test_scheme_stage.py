@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scheme_truths import make_scheme_twin
 
 from pyrofit.config import Study, read_study
 from pyrofit.errors import DataError
@@ -16,7 +17,6 @@ from pyrofit.scheme.arrangements.base import PREFIX
 from pyrofit.scheme.choice import Choice
 from pyrofit.scheme.schemes import Scheme
 from pyrofit.scheme.settings import SchemeSettings
-from pyrofit.scheme.twins import make_scheme_twin
 from pyrofit.simulate import simulate_tga
 from pyrofit.solver.curves import Request
 from pyrofit.steps.scheme import record as scheme

@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.config import Study, TermSpec, as_study
+from pyrofit.errors import StudyError, suggest
 from pyrofit.estimate.targets import Measurements
 from pyrofit.numerics import functions
 from pyrofit.quantities import quantities_of
@@ -200,3 +201,28 @@ def _noise(mass: FloatArray, settings: SchemeSettings, rng: np.random.Generator)
     moved = np.interp(TEMPERATURES_K + shift, TEMPERATURES_K, mass) - mass
     scatter = settings.scatter * rng.standard_normal(mass.size)
     return np.asarray(moved + settings.drift * drift + scatter)
+
+
+def all_schemes(most_reactions: int) -> dict[str, Scheme]:
+    """Return every scheme by name."""
+    found = {Scheme()}
+    ahead = [Scheme()]
+    while ahead:
+        new = set(ahead.pop().extensions(most_reactions, lag=True)) - found
+        found |= new
+        ahead += new
+    return {scheme.name: scheme for scheme in sorted(found)}
+
+
+def scheme_named(name: str, most_reactions: int) -> Scheme:
+    """Return a scheme by its name.
+
+    Raises
+    ------
+    StudyError
+        There is none of this name.
+    """
+    known = all_schemes(most_reactions)
+    if name not in known:
+        raise StudyError(f"unknown scheme '{name}'. {suggest(name, known)}")
+    return known[name]
