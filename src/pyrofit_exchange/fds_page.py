@@ -14,7 +14,7 @@ from pyrofit.show.drawn import Axes, Canvas
 from pyrofit.show.figure import Figure
 from pyrofit.show.page import Page
 from pyrofit.show.table import Table
-from pyrofit.show.units import shown
+from pyrofit.show.units import celsius, shown
 
 TITLE = "FDS beside pyrofit"
 MOST_PANELS = 12
@@ -91,7 +91,7 @@ def _about(study: Study, results: Results) -> str:
 def _draw(ax: Axes, signal: str, part: pd.DataFrame) -> None:
     quantity = known_quantities()[signal]
     timed = "time_s" in part and part["time_s"].notna().all()
-    x = part["time_s"] if timed else style.axis_celsius(part["temperature_K"])
+    x = part["time_s"] if timed else celsius(part["temperature_K"])
     ax.plot(x, shown(quantity, part["pyrofit"]), color="black")
     ax.plot(x, shown(quantity, part["fds"]), color=style.colour(1), linestyle="--")
     ax.set_xlabel("time [s]" if timed else "temperature [°C]")

@@ -13,8 +13,10 @@ from pyrofit.cost.distances import (
     bands_differences,
     bands_limits,
     range_differences,
-    range_differences_propti,
+    range_limits_propti,
     rmse_differences,
+    to_limit,
+    to_target,
 )
 from pyrofit.cost.normalisation import normaliser
 from pyrofit.errors import CostError
@@ -64,9 +66,10 @@ def test_default_normalisation_is_none_as_printed_and_mean_as_coded(kind, y_N):
 def test_table_2_differences_by_hand():
     assert rmse_differences(TARGET, MODEL).tolist() == [0.5, -4.0, 8.0]
     assert range_differences(TARGET, MODEL, 0.1) == pytest.approx([0.0, -2.0, 2.0])
-    assert range_differences_propti(TARGET, MODEL, 0.1) == pytest.approx([0.0, -4.0, 8.0])
+    coded = to_target(MODEL, TARGET.value, *range_limits_propti(TARGET, 0.1))
+    assert coded == pytest.approx([0.0, -4.0, 8.0])
     assert bands_differences(TARGET, MODEL).tolist() == [0.0, -2.0, 4.0]
-    assert bands_differences(TARGET, MODEL, n_sigma=2.0).tolist() == [0.0, 0.0, 0.0]
+    assert to_limit(MODEL, *bands_limits(TARGET, n_sigma=2.0)).tolist() == [0.0, 0.0, 0.0]
 
 
 def test_range_orders_the_limits_of_negative_targets():
@@ -78,7 +81,8 @@ def test_range_orders_the_limits_of_negative_targets():
 def test_range_as_coded_always_counts_negative_targets():
     target = Target(TIME, [-10.0, -10.0, 10.0])
     model = np.array([-10.5, -10.0, 10.5])
-    assert range_differences_propti(target, model, 0.1) == pytest.approx([-0.5, 0.0, 0.0])
+    coded = to_target(model, target.value, *range_limits_propti(target, 0.1))
+    assert coded == pytest.approx([-0.5, 0.0, 0.0])
     assert range_differences(target, model, 0.1).tolist() == [0.0, 0.0, 0.0]
 
 

@@ -13,7 +13,6 @@ from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.model.base import value_of
 from pyrofit.model.expressions import names_of
 from pyrofit.numerics import linear
-from pyrofit.solver.arrays import FloatArray
 
 
 def estimates_table(study: Study, likelihood: Likelihood, found: Identification) -> pd.DataFrame:
@@ -114,8 +113,3 @@ def signals_table(
     table["chi2"] = [linear.dot(part, part) for part in residuals]
     table["chi2_per_point"] = [linear.dot(part, part) / part.size for part in residuals]
     return table
-
-
-def correlation_table(names: Sequence[str], correlation: FloatArray) -> pd.DataFrame:
-    """Return a correlation matrix with names."""
-    return pd.DataFrame(correlation, index=list(names), columns=list(names))

@@ -4,11 +4,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Literal
 
+import pandas as pd
+
 from pyrofit.api.arguments import count_of, teller_of, word_of
 from pyrofit.api.choices import Signals, in_units, si_values, with_kinetics_of
 from pyrofit.api.comparison import series_compared
 from pyrofit.api.fit_tables import (
-    correlation_table,
     derived_table,
     ends_table,
     estimates_table,
@@ -187,7 +188,7 @@ def fit_likelihood(
         table=estimates_table(study, likelihood, found),
         comparison=scored,
         signals=signals_table(scored, likelihood, found),
-        correlation=correlation_table(problem.names, found.correlation),
+        correlation=pd.DataFrame(found.correlation, problem.names, problem.names),
         chi2=found.posterior.chi2,
         freedom=found.posterior.freedom,
         history=ends_table(study, likelihood, ends),

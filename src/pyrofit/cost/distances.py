@@ -192,34 +192,14 @@ def range_differences(target: Target, model: FloatArray, r: float = 0.05) -> Flo
     return to_limit(model, *range_limits(target, r))
 
 
-def range_differences_propti(target: Target, model: FloatArray, r: float = 0.05) -> FloatArray:
-    """RANGE as PROPTI codes it: once outside the interval, the distance to the target.
-
-    Parameters, errors: as `range_differences`. It jumps by r |y| at the edge, and a point with
-    y < 0 always counts. Table 4 of Lauer et al. was made with it.
-
-    >>> target = Target([0, 1, 2], [2, 2, -2])
-    >>> range_differences_propti(target, np.array([2.5, 4.0, -2.5]), r=0.5).tolist()
-    [0.0, 2.0, -0.5]
-    """
-    return to_target(model, target.value, *range_limits_propti(target, r))
-
-
-def bands_differences(
-    target: Target,
-    model: FloatArray,
-    lower: FloatArray | None = None,
-    upper: FloatArray | None = None,
-    n_sigma: float | None = None,
-    smooth_s: float | None = None,
-) -> FloatArray:
+def bands_differences(target: Target, model: FloatArray) -> FloatArray:
     """Table 2, BANDS: the distance to the nearer of two limits, 0 between them.
 
     PROPTI codes the same distance; its `BANDS_PROPTI` differs in the normalisation alone.
-    Parameters, errors: as `bands_limits`, and the model, shape (n,), at the target's times.
+    The limits are those of `bands_limits`; the model, shape (n,), is at the target's times.
 
     >>> target = Target([0, 1, 2], [2, 2, 2], uncertainty=[1, 1, 0.5])
     >>> bands_differences(target, np.array([2.5, 0.0, 4.0])).tolist()
     [0.0, -1.0, 1.5]
     """
-    return to_limit(model, *bands_limits(target, lower, upper, n_sigma, smooth_s))
+    return to_limit(model, *bands_limits(target))

@@ -94,12 +94,8 @@ def template_of(study: Study) -> Template:
         products=products,
         inert={n: c for n, c in material.components.items() if n not in reacting},
         composition={n: s for n, s in material.composition.items() if n not in reacting},
-        residue=sum(_largest(study, y) for y in products.values()),
+        residue=sum(max(ends_of(study, y)) for y in products.values()),
     )
-
-
-def _largest(study: Study, number: float | str) -> float:
-    return max(ends_of(study, number))
 
 
 def pose_scheme(

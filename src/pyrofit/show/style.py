@@ -222,8 +222,3 @@ def style() -> Any:
 
     settings: dict[Any, Any] = {**mpl.rcParamsDefault, **STYLE, "backend": "agg"}
     return mpl.rc_context(settings)
-
-
-def axis_celsius(kelvin: Any) -> Any:
-    """Convert K to degrees Celsius, for an axis."""
-    return np.asarray(kelvin, dtype=float) - 273.15

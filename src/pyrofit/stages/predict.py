@@ -75,27 +75,12 @@ def predict_sets(study: Study, results: Results) -> None:
                 quantity = experiment.quantity(signal)
                 measured = measurements[name, signal][quantity.column].to_numpy(float)
                 simulated = run.signals[signal]
-                curves.append(_curve(name, signal, label, request.time_s, simulated, measured))
-                score = _score(quantity, simulated, measured, errors[signal])
                 about = {"experiment": name, "signal": signal, "set": label}
-                scores.append({**about, **score})
+                series = {"time_s": request.time_s, "simulated": simulated, "measured": measured}
+                curves.append(pd.DataFrame({**about, **series}))
+                scores.append({**about, **_score(quantity, simulated, measured, errors[signal])})
     write_csv(results.validation("curves.csv"), pd.concat(curves, ignore_index=True))
     write_csv(results.validation("scores.csv"), pd.DataFrame(scores))
-
-
-def _curve(
-    name: str, signal: str, label: str, time: FloatArray, value: FloatArray, measured: FloatArray
-) -> pd.DataFrame:
-    return pd.DataFrame(
-        {
-            "experiment": name,
-            "signal": signal,
-            "set": label,
-            "time_s": time,
-            "simulated": value,
-            "measured": measured,
-        }
-    )
 
 
 def _score(

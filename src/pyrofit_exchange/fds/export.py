@@ -15,8 +15,7 @@ from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.outputs import BACK, FRONT, MASS, MASS_FRACTION, RATE
 from pyrofit_exchange.fds.heated import heated_deck
 from pyrofit_exchange.fds.include import all_remarks, heading, include
-from pyrofit_exchange.fds.layers import identifiers
-from pyrofit_exchange.fds.namelists import comment_line, write_all
+from pyrofit_exchange.fds.namelists import comment_line, unique, write_all
 from pyrofit_exchange.fds.predicted import PredictedByPyrofit, predict_heated, predict_slab
 from pyrofit_exchange.fds.slab import Deck, slab_deck
 from pyrofit_exchange.fds.versions import Version
@@ -50,7 +49,7 @@ class WrittenDeck(NamedTuple):
 
 def decks(study: Study, chosen: ParameterSet, version: Version) -> list[WrittenDeck]:
     """Return the decks of a study: every slab, and every heating rate once."""
-    names = identifiers(list(study.experiments))
+    names = unique(list(study.experiments), 40)  # FDS takes 50 characters
     found, rates = [], set()
     for name, experiment in study.experiments.items():
         if isinstance(experiment, SlabExperiment):

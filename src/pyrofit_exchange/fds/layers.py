@@ -10,7 +10,7 @@ from pyrofit.model.slab import Adhesive, Backing, Foil, Sample
 from pyrofit.solver.lower import fractions
 from pyrofit.solver.lower_experiment import thicknesses
 from pyrofit_exchange.fds.materials import OPAQUE_1_M, MaterialLines, Values
-from pyrofit_exchange.fds.namelists import Item, Namelist, unique
+from pyrofit_exchange.fds.namelists import Item, Namelist
 
 FOIL, CONTACT = "FOIL", "CONTACT"
 COPPER_W_MK = 387.0
@@ -85,8 +85,3 @@ def layer_keys(layers: list[FdsLayer], lines: MaterialLines) -> dict[str, Item |
     items[f"THICKNESS{span}"] = [layer.thickness_m for layer in layers]
     items[f"STRETCH_FACTOR{span}"] = [1.0] * len(layers)
     return items
-
-
-def identifiers(names: list[str]) -> dict[str, str]:
-    """Return names of files and runs by experiment; FDS takes 50 characters."""
-    return unique(names, 40)

@@ -13,11 +13,6 @@ REACHED = 1e-4
 """Unreacted share up to which the sum is fitted."""
 
 
-def unreacted(order: float, tau: FloatArray) -> FloatArray:
-    """Return m/m0 = (1 + (n - 1) tau)^(-1/(n - 1)) at reduced times tau [-], for n > 1."""
-    return functions.power(1.0 + (order - 1.0) * tau, -1.0 / (order - 1.0))
-
-
 @cache
 def first_order_sum(order: float) -> tuple[tuple[float, float], ...]:
     """Return mass fractions and relative rates of first-order parts that lose mass like order n.

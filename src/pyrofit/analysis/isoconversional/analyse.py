@@ -136,7 +136,6 @@ def analyse(
     curves: Sequence[Curve],
     model: Sequence[Curve] = (),
     temperature_sd_K: float | None = None,
-    levels: FloatArray = LEVELS,
 ) -> Analysis:
     """Return the activation energies of records over conversion.
 
@@ -149,24 +148,22 @@ def analyse(
     temperature_sd_K
         Standard deviation of the temperature of a record about that of the others; default: by
         repeats, and 0.5 K where there are none.
-    levels
-        Levels of conversion.
     """
-    runs = runs_of(curves, levels)
+    runs = runs_of(curves)
     sd = _temperature_sd(runs) if temperature_sd_K is None else temperature_sd_K
     of_model: dict[str, Energies] = {}
     if model:
-        simulated = runs_of(model, levels, runs.reach)
+        simulated = runs_of(model, runs.reach)
         of_model = {name: method(simulated, 0.0) for name, method in METHODS.items()}
     found = {name: method(runs, sd) for name, method in METHODS.items()}
     return Analysis(runs, found, of_model, sd)
 
 
-def no_table(levels: FloatArray = LEVELS) -> pd.DataFrame:
+def no_table() -> pd.DataFrame:
     """Return the table of an analysis that finds nothing."""
     columns = [f"{m}{end}_kJ_mol" for m in METHODS for end in ("", "_error")]
     nothing = dict.fromkeys(["temperature_K", *columns], np.nan)
-    return pd.DataFrame({"conversion": np.round(levels, 6), **nothing})
+    return pd.DataFrame({"conversion": np.round(LEVELS, 6), **nothing})
 
 
 def _temperature_sd(runs: RecordsAtLevels) -> float:

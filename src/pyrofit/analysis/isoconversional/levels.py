@@ -48,16 +48,14 @@ class RecordsAtLevels:
         return np.array([getattr(found, key) for found in self.at])
 
 
-def runs_of(
-    curves: Sequence[Curve], levels: FloatArray = LEVELS, reach: float | None = None
-) -> RecordsAtLevels:
-    """Return records at levels of conversion.
+def runs_of(curves: Sequence[Curve], reach: float | None = None) -> RecordsAtLevels:
+    """Return records at `LEVELS` of conversion.
 
     All have the same ``reach``, by default the largest that one of them needs.
     """
     reach = max(reach_of(curve) for curve in curves) if reach is None else reach
     at, before, after = (
-        tuple(crossing(curve, levels + shift, reach) for curve in curves)
+        tuple(crossing(curve, LEVELS + shift, reach) for curve in curves)
         for shift in (0.0, -0.5 * STEP, 0.5 * STEP)
     )
-    return RecordsAtLevels(tuple(curves), levels, reach, at, before, after)
+    return RecordsAtLevels(tuple(curves), LEVELS, reach, at, before, after)

@@ -15,14 +15,10 @@ from pyrofit.model.material import REST, check_composition
 from pyrofit.model.slab import SlabExperiment
 
 
-def _largest(study: Study, number: float | str) -> float:
-    """Return a number, or the most that a parameter can be, in SI units."""
-    return max(ends_of(study, number))
-
-
 def _check_sum(study: Study, shares: Mapping[str, float | str], place: str) -> None:
     """Refuse mass fractions or yields that may add up to more than one."""
-    total = sum(_largest(study, share) for share in shares.values() if share != REST)
+    most = (max(ends_of(study, share)) for share in shares.values() if share != REST)
+    total = sum(most)
     require(
         total <= 1.0 + 1e-9,
         place,

@@ -128,7 +128,7 @@ def fitted_from_starts(
     """
     model = model_of(base, {})
     starts = start_points(base, seed)
-    ahead = [_chi2(residuals) for residuals in model.residuals_all(np.array(starts))]
+    ahead = [linear.dot(r, r) for r in model.residuals_all(np.array(starts))]
     starts = [starts[k] for k in np.argsort(ahead, kind="stable")]
     first = starts[: base.settings.base_descents]
     ends = parallel_map(lambda k: descend_chi_square(model, first[k]), len(first), processes)
@@ -164,10 +164,6 @@ def start_points(base: Base, seed: int) -> list[FloatArray]:
         span = (problem.upper - problem.lower)[index]
         x[index] = (known.mean - problem.lower[index]) / span
     return points
-
-
-def _chi2(residuals: FloatArray) -> float:
-    return linear.dot(residuals, residuals)
 
 
 def with_noise_about(

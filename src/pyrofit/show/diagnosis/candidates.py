@@ -11,7 +11,7 @@ from pyrofit.results.diagnosis_candidates import OfCandidate, OfStrength
 from pyrofit.results.files import Results
 from pyrofit.show.diagnosis.words import (
     MOST,
-    model_name,
+    effect_name,
     prediction_name,
     ranked,
     remark_on_candidate,
@@ -26,7 +26,7 @@ def candidates_table(study: Study, results: Results) -> pd.DataFrame:
     lowest = order[0].penalised if order else 0.0
     rows = [
         {
-            "model": model_name(c.effects),
+            "model": " + ".join(map(effect_name, c.effects)),
             "chi2": c.chi2,
             "gain": c.gain,
             "above_best": c.penalised - lowest,

@@ -1,7 +1,5 @@
 """Names, units and the leading candidate, as the diagnosis shows them."""
 
-from collections.abc import Sequence
-
 from pyrofit.config import Study
 from pyrofit.effects import known_effects
 from pyrofit.quantities.base import Quantity
@@ -63,11 +61,6 @@ def effect_name(name: str) -> str:
     effects = known_effects()
     title = effects[name].title if name in effects else name
     return name if title == name else f"{title} ({name})"
-
-
-def model_name(effects: Sequence[str]) -> str:
-    """Return the effects of a model, titles and names."""
-    return " + ".join(effect_name(name) for name in effects)
 
 
 def setting(found: Diagnosis, name: str, default: float) -> float:

@@ -1,5 +1,7 @@
 """Draws from the posterior of the parameters, and all experiments predicted with them."""
 
+from dataclasses import asdict
+
 import numpy as np
 import pandas as pd
 
@@ -93,7 +95,7 @@ def _write(
     likelihood, drawn = found.likelihood, found.drawn
     draws = pd.DataFrame(likelihood.values(spread(drawn, KEPT)), columns=names)
     write_csv(results.of_step("posterior", record.SAMPLES), draws)
-    matrix = pd.DataFrame(_correlation(drawn.flat), columns=names)
+    matrix = pd.DataFrame(linear.correlation(drawn.flat.T), columns=names)
     matrix.insert(0, "parameter", names)
     write_csv(results.of_step("posterior", record.CORRELATION), matrix)
     ensemble = pd.DataFrame(likelihood.values(spread(drawn, sets)), columns=names)
@@ -106,10 +108,6 @@ def _write(
         values = {**fixed, **dict(zip(names, row, strict=True))}
         about = {"study": study.name, "set": number, "weight": weight, "values_SI": values}
         write_json(results.of_step("posterior", f"{record.SETS}/{number:04d}.json"), about)
-
-
-def _correlation(draws: FloatArray) -> FloatArray:
-    return linear.correlation(draws.T)
 
 
 def _found(study: Study, found: Sampled, bands: list[OfBand], sets: int) -> SampledPosterior:
@@ -132,14 +130,7 @@ def _found(study: Study, found: Sampled, bands: list[OfBand], sets: int) -> Samp
         sets=min(sets, len(drawn.flat)),
         parameters=_parameters(found),
         discrepancies=[
-            OfDiscrepancy(
-                experiment=experiment,
-                signal=signal,
-                level=of.level,
-                time=of.time,
-                offset=of.offset,
-                lasting=of.lasting,
-            )
+            OfDiscrepancy(experiment=experiment, signal=signal, **asdict(of))
             for (experiment, signal, _), of in zip(picks, found.discrepancies, strict=True)
         ],
         bands=bands,

@@ -214,7 +214,8 @@ def _rates(case: RecordedCases, name: str) -> Iterator[LikelyCause]:
     experiment = case.experiments[name]
     assert isinstance(experiment, HeatedExperiment)
     given = experiment.heating_rate_K_min
-    others = {e.heating_rate_K_min for e in case.experiments.values() if _is_heated(e)}  # type: ignore[attr-defined]
+    heated = (e for e in case.experiments.values() if isinstance(e, HeatedExperiment))
+    others = {e.heating_rate_K_min for e in heated}
     rates = dict.fromkeys([given * f for f in (*MINUTES, *TENS)] + sorted(others - {given}))
     for rate in rates:
         yield LikelyCause(
@@ -223,10 +224,6 @@ def _rates(case: RecordedCases, name: str) -> Iterator[LikelyCause]:
             f"the heating rate of {name} is {rate:.3g} K/min, not {given:g} K/min",
             heated_at(name, case.signals(name), rate, rate / given),
         )
-
-
-def _is_heated(experiment: Experiment) -> bool:
-    return isinstance(experiment, HeatedExperiment)
 
 
 def _samples(

@@ -41,10 +41,6 @@ class RecordedCases:
     experiments: Mapping[str, Experiment]
     frames: Mapping[Channel, pd.DataFrame]
 
-    def channels(self) -> list[Channel]:
-        """Return experiment and signal of all records."""
-        return list(self.frames)
-
     def signals(self, name: str) -> list[str]:
         """Return the signals of an experiment."""
         return [signal for experiment, signal in self.frames if experiment == name]

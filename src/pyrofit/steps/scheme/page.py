@@ -12,6 +12,7 @@ from pyrofit.show.page import page_of_step
 from pyrofit.show.parts import Passage, study_to_run
 from pyrofit.show.subjects.kinetics.drawing import rate_of, slope
 from pyrofit.show.table import Row, Table
+from pyrofit.show.units import celsius
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.steps.scheme import record
 from pyrofit.steps.scheme.record import OfScheme
@@ -127,7 +128,7 @@ def draw_schemes(study: Study, results: Results) -> Canvas:
 def _draw(axes: list[Axes], curve: pd.DataFrame) -> None:
     mass, rate, left = axes
     temperature = curve["temperature_K"].to_numpy(float)
-    at = style.axis_celsius(temperature)
+    at = celsius(temperature)
     measured = curve["measured"].to_numpy(float)
     mass.plot(at, measured, **_MEASURED)
     _draw_slope(rate, temperature, measured, _MEASURED)
@@ -148,7 +149,7 @@ def _draw(axes: list[Axes], curve: pd.DataFrame) -> None:
 
 def _draw_slope(ax: Axes, temperature: FloatArray, mass: FloatArray, look: DrawStyle) -> None:
     grid, rate = slope(temperature, mass)
-    ax.plot(style.axis_celsius(grid), rate, **look)
+    ax.plot(celsius(grid), rate, **look)
 
 
 FIGURE = Figure(

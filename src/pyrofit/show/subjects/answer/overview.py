@@ -18,7 +18,6 @@ from pyrofit.show.curves import (
     tests_of,
 )
 from pyrofit.show.drawn import Axes, Canvas, DrawStyle
-from pyrofit.show.facts import Facts
 from pyrofit.show.figure import Figure
 from pyrofit.show.units import shown
 from pyrofit.show.verdicts import verdict_on
@@ -58,11 +57,6 @@ def _draw(ax: Axes, study: Study, results: Results, pair: Pair, curve: pd.DataFr
     ax.plot(curve["time_s"], shown(quantity, curve["simulated"]), **_LINE)
 
 
-def verdict_on_overview(study: Study, facts: Facts) -> str:
-    """Say whether the model describes the fitted signals that are shown."""
-    return verdict_on(study, facts, "imp", _pairs(study))
-
-
 def _use(study: Study, pair: Pair) -> str:
     """Return the use of a signal: 'fitted' where a cost function or the estimates use it."""
     uses = {use_of(study, cost, *pair) for cost in (LIKELIHOOD, *study.imp.costs)}
@@ -90,5 +84,5 @@ FIGURE = Figure(
     make=draw_overview,
     title="Measured, fitted and predicted",
     caption="The estimates beside the data. 'Predicted': nothing was fitted to this test.",
-    verdict=verdict_on_overview,
+    verdict=lambda study, facts: verdict_on(study, facts, "imp", _pairs(study)),
 )

@@ -15,6 +15,7 @@ from pyrofit.results.kinetics import labels
 from pyrofit.show import style
 from pyrofit.show.drawn import Axes, Line2D, Patch
 from pyrofit.show.names import data_name
+from pyrofit.show.units import celsius
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.outputs import MASS_FRACTION
 
@@ -107,7 +108,7 @@ def busy_span(curves: pd.DataFrame) -> tuple[float, float]:
     start = mass.groupby([curves["experiment"], curves["set"]]).transform("first")
     end = mass.groupby([curves["experiment"], curves["set"]]).transform("last")
     busy = (mass < start - _NOTICEABLE) & (mass > end + _NOTICEABLE)
-    temperature = style.axis_celsius(curves["temperature_K"])
+    temperature = celsius(curves["temperature_K"])
     where = temperature[busy] if busy.any() else temperature
     low = max(float(temperature.min()), float(where.min()) - 30.0)
     return low, min(float(temperature.max()), float(where.max()) + 30.0)
@@ -117,7 +118,7 @@ def draw_mass_band(ax: Axes, measured: pd.DataFrame) -> None:
     """Shade measured mass ± uncertainty, where one is known."""
     if _UNCERTAINTY in measured:
         mass, width = (measured[c].to_numpy(float) for c in (MASS_FRACTION, _UNCERTAINTY))
-        temperature = style.axis_celsius(measured["temperature_K"])
+        temperature = celsius(measured["temperature_K"])
         low, high = mass - width, mass + width
         ax.fill_between(temperature, low, high, color=style.BAND, linewidth=0.0)
 

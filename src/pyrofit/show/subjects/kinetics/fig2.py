@@ -21,6 +21,7 @@ from pyrofit.show.subjects.kinetics.drawing import (
     slope,
     with_same_words,
 )
+from pyrofit.show.units import celsius
 from pyrofit.show.verdicts import verdict_on
 from pyrofit.solver.outputs import MASS_FRACTION
 
@@ -60,9 +61,9 @@ def _draw(left: Axes, right: Axes, curve: pd.DataFrame, colour: str, dash: objec
     # Measured lines are light, so that dashes on top of them are seen.
     look = {"color": colour, "linestyle": dash}
     look |= {"alpha": 0.45, "linewidth": 1.8} if dash == "-" else {"linewidth": 1.1}
-    left.plot(style.axis_celsius(temperature), mass, **look)  # type: ignore[arg-type]
+    left.plot(celsius(temperature), mass, **look)  # type: ignore[arg-type]
     grid, rate = slope(temperature, mass)
-    right.plot(style.axis_celsius(grid), rate, **look)  # type: ignore[arg-type]
+    right.plot(celsius(grid), rate, **look)  # type: ignore[arg-type]
 
 
 FIGURE = Figure(

@@ -13,6 +13,7 @@ from pyrofit.show.drawn import Axes, Canvas, Line2D, Patch
 from pyrofit.show.figure import Figure
 from pyrofit.show.names import data_name
 from pyrofit.show.subjects.kinetics.drawing import dash_of, rate_of
+from pyrofit.show.units import celsius, difference, shown
 from pyrofit.show.verdicts import verdict_on
 from pyrofit.solver.arrays import FloatArray
 
@@ -37,24 +38,18 @@ def draw_heats(study: Study, results: Results) -> Canvas:
             for k, label in enumerate(kinetics.labels(study)):
                 curve = here[here["set"] == label]
                 quantity = study.experiments[name].quantity(signal)
-                _draw(ax, curve, _shown(curve["value"], quantity), k)
+                _draw(ax, curve, shown(quantity, curve["value"]), k)
         ax.set_xlabel("temperature [°C]")
     style.letter(axes, [_heading(study, *repeats[0]) for repeats in tests])
     style.legend_below(canvas, _entries(study, stated))
     return canvas
 
 
-def _shown(values: pd.Series, quantity: Quantity) -> FloatArray:
-    shown = quantity.shown
-    converted: FloatArray = values.to_numpy(float) * shown.factor + shown.offset
-    return converted
-
-
 def _draw_measured(ax: Axes, measured: pd.DataFrame, quantity: Quantity, repeats: int) -> None:
-    temperature = style.axis_celsius(measured["temperature_K"])
-    values = _shown(measured[quantity.column], quantity)
+    temperature = celsius(measured["temperature_K"])
+    values = shown(quantity, measured[quantity.column])
     if quantity.uncertainty_column in measured:
-        width = measured[quantity.uncertainty_column].to_numpy(float) * quantity.shown.factor
+        width = difference(quantity, measured[quantity.uncertainty_column])
         low, high = values - width, values + width
         ax.fill_between(temperature, low, high, color=style.BAND, linewidth=0.0)
     ax.plot(temperature, values, color="0.6", linewidth=2.0 if repeats == 1 else 0.8)
@@ -62,7 +57,7 @@ def _draw_measured(ax: Axes, measured: pd.DataFrame, quantity: Quantity, repeats
 
 def _draw(ax: Axes, curve: pd.DataFrame, values: FloatArray, k: int) -> None:
     look = {"color": style.colour(k), "linestyle": dash_of(k)}
-    ax.plot(style.axis_celsius(curve["temperature_K"]), values, **look)  # type: ignore[arg-type]
+    ax.plot(celsius(curve["temperature_K"]), values, **look)  # type: ignore[arg-type]
 
 
 def _heading(study: Study, name: str, signal: str) -> str:

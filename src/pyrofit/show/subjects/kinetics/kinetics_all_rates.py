@@ -21,6 +21,7 @@ from pyrofit.show.subjects.kinetics.drawing import (
     rate_of,
     with_same_words,
 )
+from pyrofit.show.units import celsius
 from pyrofit.show.verdicts import verdict_on
 from pyrofit.solver.outputs import MASS_FRACTION
 
@@ -37,7 +38,7 @@ def kinetics_all_rates(study: Study, results: Results) -> Canvas:
         for name in repeats:
             measured = mass_series(study, results, name)
             draw_mass_band(ax, measured)
-            temperature = style.axis_celsius(measured["temperature_K"])
+            temperature = celsius(measured["temperature_K"])
             look = {"color": "0.6", "linewidth": 2.0 if len(repeats) == 1 else 1.0}
             ax.plot(temperature, measured[MASS_FRACTION], **look)  # type: ignore[arg-type]
         for name in repeats:
@@ -60,7 +61,7 @@ def kinetics_all_rates(study: Study, results: Results) -> Canvas:
 
 def _draw_sets(ax: Axes, sets: Sequence[tuple[str, pd.DataFrame]]) -> None:
     for k, (_, curve) in enumerate(sets):
-        temperature = style.axis_celsius(curve["temperature_K"])
+        temperature = celsius(curve["temperature_K"])
         ax.plot(temperature, curve[MASS_FRACTION], color=style.colour(k), linestyle=dash_of(k))
 
 
