@@ -17,8 +17,8 @@ from pyrofit.new_study.columns import FoundColumn
 from pyrofit.quantities.units import ICE_POINT_K, header_key, unit_key
 from pyrofit_files.content import best_kind
 from pyrofit_files.examined import Examined, FileSignal
-from pyrofit_files.names import Label
-from pyrofit_files.readme import StatedFacts
+from pyrofit_files.names import Label, label_of
+from pyrofit_files.readme import read_readme, stated_facts
 
 _PER_METRE = {"cm-1": 100.0, "1/cm": 100.0, "/cm": 100.0}
 _DIFFUSIVITY = {"mm2/s": 1e-6, "m2/s": 1.0, "cm2/s": 1e-4}
@@ -64,12 +64,14 @@ def _signal(table: FileTable, kind: str, x: str, y: str) -> FileSignal | None:
 _TOTAL = "total"
 
 
-def examine_file(path: Path, label: Label, facts: StatedFacts) -> Examined:
+def examine_file(path: Path) -> Examined:
     """Read a file as far as possible; report each obstacle as a finding.
 
-    The columns tell the kind of experiment; the name tells it among kinds of the same sort.
+    The columns tell the kind of experiment; the name tells it among kinds of the same sort. Facts
+    are those of the README beside it.
     """
-    seen = Examined(path, label, facts)
+    label = label_of(path.stem, path.parent.name)
+    seen = Examined(path, label, stated_facts(label, read_readme(path.parent)))
     try:
         seen.table = read_table(path)
     except DataError as error:

@@ -100,6 +100,12 @@ class Examined:
         """Whether the kind of the file is known, and at least one of its signals can be read."""
         return bool(self.kind and self.signals)
 
+    @property
+    def signals_in_words(self) -> str:
+        """Its signals with the units of their columns."""
+        found = self.signals.items()
+        return ", ".join(f"{name.replace('_', ' ')} [{of.unit or '-'}]" for name, of in found)
+
     def say(self, check: str, weight: Weight, text: str, column: str = "") -> None:
         """Add a finding."""
         self.findings.append(FileFinding(check, weight, text, column))

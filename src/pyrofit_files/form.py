@@ -46,7 +46,7 @@ def form_of(files: Sequence[Examined], folder: Path) -> str:
         "| file | kind | conditions | signals |",
         "|---|---|---|---|",
         *(
-            _row(_name(seen, folder), seen.kind, seen.label.conditions, _signals(seen))
+            _row(_name(seen, folder), seen.kind, seen.label.conditions, seen.signals_in_words)
             for seen in files
         ),
     ]
@@ -113,11 +113,6 @@ def _has(seen: Examined, weight: str) -> bool:
 
 def _name(seen: Examined, folder: Path) -> str:
     return f"`{seen.path.relative_to(folder).as_posix()}`"
-
-
-def _signals(seen: Examined) -> str:
-    words = (f"{name.replace('_', ' ')} [{of.unit or '-'}]" for name, of in seen.signals.items())
-    return ", ".join(words)
 
 
 def _row(*cells: str) -> str:

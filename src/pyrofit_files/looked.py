@@ -16,8 +16,6 @@ from pyrofit.quantities.units import PER_START
 from pyrofit_files.checks import run_checks
 from pyrofit_files.classify import examine_file
 from pyrofit_files.examined import Examined, FileSignal, FloatArray
-from pyrofit_files.names import label_of
-from pyrofit_files.readme import read_readme, stated_facts
 
 FIRST = 5
 """Points whose median is the initial value."""
@@ -141,10 +139,7 @@ def look_at(files: Iterable[Path]) -> Looked:
     paths = [path for given in files for path in _files(given)]
     if not paths:
         raise DataError("there is no file to look at; name measured files or a folder of them")
-    examined = []
-    for path in paths:
-        label = label_of(path.stem, path.parent.name)
-        examined.append(examine_file(path, label, stated_facts(label, read_readme(path.parent))))
+    examined = [examine_file(path) for path in paths]
     run_checks(examined)
     return Looked(examined, list(_tests(examined)))
 

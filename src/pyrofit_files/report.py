@@ -9,8 +9,6 @@ from pyrofit.errors import DataError
 from pyrofit_files.checks import run_checks
 from pyrofit_files.classify import examine_file
 from pyrofit_files.examined import Examined
-from pyrofit_files.names import Label, label_of
-from pyrofit_files.readme import StatedFacts, read_readme, stated_facts
 
 ENDINGS = {".csv", ".txt", ".tsv", ".dat", ".asc"}
 TEXTS = ENDINGS - {".csv", ".tsv"}
@@ -36,14 +34,7 @@ def examine_folder(folder: Path) -> list[Examined]:
     if not paths:
         endings = ", ".join(sorted(ENDINGS))
         raise DataError(f"{folder}: it holds no measured files ({endings}); give another folder.")
-    readmes: dict[Path, dict[Label, StatedFacts]] = {}
-    files = []
-    for path in paths:
-        known = readmes.setdefault(path.parent, read_readme(path.parent))
-        label = label_of(path.stem, path.parent.name)
-        seen = examine_file(path, label, stated_facts(label, known))
-        if seen.table is not None or label.kind or path.suffix.casefold() not in TEXTS:
-            files.append(seen)
+    files = [seen for path in paths if _is_measured(seen := examine_file(path))]
     if not files:
         raise DataError(
             f"{folder}: it holds no measured files (no table in text files such as "
@@ -51,6 +42,12 @@ def examine_folder(folder: Path) -> list[Examined]:
         )
     run_checks(files)
     return files
+
+
+def _is_measured(seen: Examined) -> bool:
+    """Tell whether a file holds a table, or has an ending or a name that promise one."""
+    text = seen.path.suffix.casefold() in TEXTS
+    return seen.table is not None or bool(seen.label.kind) or not text
 
 
 def measured_files(folder: Path) -> Iterator[Path]:
@@ -67,7 +64,7 @@ def measured_files(folder: Path) -> Iterator[Path]:
 def report_lines(files: Sequence[Examined], folder: Path, notes: bool) -> Iterator[str]:
     """Yield the report: each file, the findings, and the counts."""
     for seen in files:
-        signals = ", ".join(_signal_words(seen)) or "nothing recognised"
+        signals = seen.signals_in_words or "nothing recognised"
         kind = seen.kind or "unknown"
         parts = [seen.label.laboratory, kind, seen.label.conditions, signals]
         yield f"{seen.path.relative_to(folder)}: {'; '.join(part for part in parts if part)}"
@@ -136,9 +133,3 @@ def _file_as_json(seen: Examined, folder: Path) -> dict[str, Any]:
             for f in seen.findings
         ],
     }
-
-
-def _signal_words(seen: Examined) -> list[str]:
-    return [
-        f"{name.replace('_', ' ')} [{signal.unit or '-'}]" for name, signal in seen.signals.items()
-    ]

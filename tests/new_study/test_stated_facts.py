@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from pyrofit.data.gas_steps import holds_oxygen
 from pyrofit.data.series import read_series
 from pyrofit.data.spec import SeriesSpec
 from pyrofit.data.stated import stated_in
@@ -241,7 +242,7 @@ def test_steps_in_one_line_tell_a_change_of_gas(line: str) -> None:
     ],
 )
 def test_oxygen_of_a_gas_line_is_more_than_a_trace(line: str, gas: bool) -> None:
-    assert stated_in([[line]]).in_oxygen == gas
+    assert holds_oxygen(stated_in([[line]]).gas) == gas
 
 
 def test_switch_to_air_alone_is_a_change_of_gas() -> None:

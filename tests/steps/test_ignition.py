@@ -29,7 +29,7 @@ def test_exact_times_give_the_critical_flux_and_the_response(law: Law) -> None:
     assert line.critical_W_m2 == pytest.approx(CRITICAL, rel=1e-6)
     assert line.critical_within == pytest.approx((CRITICAL, CRITICAL), rel=1e-3)
     assert line.scatter == pytest.approx(0.0, abs=1e-9)
-    assert line.remarks == ()
+    assert line.remarks == []
     if law == "janssens":
         assert line.response is None
     else:
@@ -79,7 +79,7 @@ def test_limit_below_zero_is_given_as_zero_and_told() -> None:
 
 def test_contradictions_with_the_tests_are_told() -> None:
     line = line_of("thick", FLUX, times(), without=[10e3, 15e3])
-    assert line.remarks == ("a sample did not ignite at 15 kW/m², above this critical flux",)
+    assert line.remarks == ["a sample did not ignite at 15 kW/m², above this critical flux"]
     thin = line_of("thin", [*FLUX, 5e3], [*times("thin", 15e3), 2000.0])
     assert any("below this critical flux" in said for said in thin.remarks)
 

@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
-from pyrofit.data.gas_steps import INERT, OXYGEN, change_of_gas, holds_oxygen
+from pyrofit.data.gas_steps import INERT, OXYGEN, change_of_gas
 from pyrofit.quantities.units import SCALES, unit_key
 
 _FIRST = 200
@@ -84,11 +84,6 @@ class Stated:
     then_gas: str = ""
     then_gas_s: float | None = None
     area_m2: float | None = None
-
-    @property
-    def in_oxygen(self) -> bool:
-        """Whether the gas holds oxygen."""
-        return holds_oxygen(self.gas)
 
 
 def stated_in(lines: Sequence[Sequence[str]]) -> Stated:

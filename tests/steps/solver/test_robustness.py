@@ -41,7 +41,7 @@ def twin(study: Study) -> robustness.NoisyTwin:
     time = np.arange(2000.0)
     line = {"time_s": time, "mlr_kg_m2_s": time, "mlr_uncertainty_kg_m2_s": 3.0}
     key = ("slab_25", "mlr")
-    return robustness.NoisyTwin(np.zeros(5), {key: pd.DataFrame(line)}, {key: np.full(2000, 2.0)})
+    return robustness.NoisyTwin({key: pd.DataFrame(line)}, {key: np.full(2000, 2.0)})
 
 
 def noise_of(study: Study, kind: str, level: float, draw: int = 0) -> pd.DataFrame:

@@ -1,5 +1,7 @@
 """Times to ignition of all slabs, and the lines through them."""
 
+from dataclasses import asdict
+
 from pyrofit.config import Study
 from pyrofit.errors import DataError
 from pyrofit.logs import Tell
@@ -8,7 +10,7 @@ from pyrofit.results import recorded
 from pyrofit.results.files import Results
 from pyrofit.steps.ignition import record
 from pyrofit.steps.ignition.options import IgnitionOptions
-from pyrofit.steps.ignition.series import EXPONENTS, Interval, Law, ignition_temperature, line_of
+from pyrofit.steps.ignition.series import EXPONENTS, Law, ignition_temperature, line_of
 from pyrofit.steps.ignition.times import DEFINITIONS, times_of
 
 
@@ -72,18 +74,5 @@ def _line(
         else ignition_temperature(critical, options.emissivity, options.convection_W_m2K)
     )
     return record.OfLine(
-        definition=definition,
-        law=law,
-        tests=len(ignited),
-        critical_W_m2=critical,
-        critical_within=_listed(line.critical_within),
-        response=line.response,
-        response_within=_listed(line.response_within),
-        ignition_K=kelvin,
-        scatter=line.scatter,
-        remarks=list(line.remarks),
+        definition=definition, law=law, tests=len(ignited), ignition_K=kelvin, **asdict(line)
     )
-
-
-def _listed(within: Interval | None) -> list[float] | None:
-    return None if within is None else list(within)

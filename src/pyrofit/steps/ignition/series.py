@@ -12,7 +12,7 @@ Materials 15, 1991). A thermally thin solid has n = 1 and b = 1/(rho c L dT).
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
@@ -40,8 +40,6 @@ class RelationLine:
 
     Parameters
     ----------
-    law
-        The relation.
     critical_W_m2, critical_within
         Critical heat flux and its 95 % interval by Fieller's theorem.
     response, response_within
@@ -53,13 +51,12 @@ class RelationLine:
         Numbers that are not determined, and contradictions to the tests.
     """
 
-    law: Law
     critical_W_m2: float | None = None
-    critical_within: Interval | None = None
+    critical_within: list[float] | None = None
     response: float | None = None
-    response_within: Interval | None = None
+    response_within: list[float] | None = None
     scatter: float | None = None
-    remarks: tuple[str, ...] = ()
+    remarks: list[str] = field(default_factory=list)
 
 
 def line_of(
@@ -86,9 +83,7 @@ def line_of(
     q, t = np.asarray(flux, float), np.asarray(time, float)
     if q.size < FEWEST or np.unique(q).size < 2:
         few = f"{q.size} tests with ignition at {np.unique(q).size} fluxes"
-        return RelationLine(
-            law, remarks=(f"{few}: a line needs {FEWEST} tests at 2 fluxes or more",)
-        )
+        return RelationLine(remarks=[f"{few}: a line needs {FEWEST} tests at 2 fluxes or more"])
     y = functions.power(t, -EXPONENTS[law])
     mean, away = y.mean(), q - q.mean()
     spread = linear.dot(away, away)
@@ -99,17 +94,13 @@ def line_of(
     curved = slope**2 - reach / spread
     if slope <= 0.0 or curved <= 0.0:
         why = "the times hardly depend on the flux: nothing is determined by this line"
-        return RelationLine(law, remarks=(why,))
+        return RelationLine(remarks=[why])
     critical = float(q.mean() - mean / slope)
     root = np.sqrt(max((mean * slope) ** 2 - curved * (mean**2 - reach / q.size), 0.0))
     lower, upper = (float(q.mean() + (-mean * slope + s * root) / curved) for s in (-1.0, 1.0))
     within = float(np.sqrt(reach / spread))
     factor = 1.0 if law == "thin" else float(np.sqrt(4.0 / np.pi))
-    response = (
-        None
-        if law == "janssens"
-        else (factor / slope, (factor / (slope + within), factor / (slope - within)))
-    )
+    has_response = law != "janssens"
     fitted = mean + slope * away
     scatter = None
     if (fitted > 0.0).all():
@@ -118,13 +109,12 @@ def line_of(
     remarks = _remarks(critical, (lower, upper), q, without)
     told = critical > 0.0
     return RelationLine(
-        law,
         critical if told else None,
-        (max(lower, 0.0), upper) if told else None,
-        response[0] if response else None,
-        response[1] if response else None,
+        [max(lower, 0.0), upper] if told else None,
+        factor / slope if has_response else None,
+        [factor / (slope + within), factor / (slope - within)] if has_response else None,
         scatter,
-        tuple(remarks),
+        remarks,
     )
 
 

@@ -38,15 +38,12 @@ class NoisyTwin:
 
     Parameters
     ----------
-    truth
-        The estimated parameters, shape (parameters,).
     clean
         The measured series with the curves of the model in the place of the measured values.
     sd
         Standard deviation of each series' noise, shape (n,).
     """
 
-    truth: FloatArray
     clean: Mapping[Channel, pd.DataFrame]
     sd: Mapping[Channel, FloatArray]
 
@@ -108,7 +105,7 @@ def _twin(study: Study, results: Results) -> NoisyTwin:
             target_of(frame, quantity), quantity, described.uncertainty_sds, described.timing_s
         )
         sd[name, signal] = noise.sd
-    return NoisyTwin(truth, clean, sd)
+    return NoisyTwin(clean, sd)
 
 
 def _predicted_rates(study: Study) -> list[tuple[str, str]]:
