@@ -14,10 +14,11 @@ from pyrofit.config import Study, as_study, read_mapping
 from pyrofit.data.noise import draw_noise
 from pyrofit.model.signal import Noise
 from pyrofit.results.files import Results
+from pyrofit.results.kinetics import fixed_for_imp
 from pyrofit.results.recorded import load
 from pyrofit.seeds import seed_for
 from pyrofit.solver.arrays import FloatArray
-from pyrofit.stages.fit import fit_kinetics, fixed_for_imp
+from pyrofit.stages.fit import fit_kinetics
 from pyrofit.stages.identify import identify_kinetics
 from pyrofit.stages.measurements import computed, prepare
 from pyrofit_blind_test.plan import strength_at

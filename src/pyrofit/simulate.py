@@ -123,7 +123,7 @@ def simulate_slabs(
     experiments: Sequence[SlabExperiment],
     material: Material,
     values: Values,
-    requests: Sequence[Mapping[str, Request]],
+    asked: Sequence[Mapping[str, Request]],
     accuracy: Accuracy,
     sets: int = 1,
     led: bool = False,
@@ -136,8 +136,8 @@ def simulate_slabs(
     """
     substance = Substance(material, values, sets)
     return [
-        _simulated(experiment, substance, asked, accuracy, 1 + spare(), led)
-        for experiment, asked in zip(experiments, requests, strict=True)
+        _simulated(experiment, substance, requests, accuracy, 1 + spare(), led)
+        for experiment, requests in zip(experiments, asked, strict=True)
     ]
 
 

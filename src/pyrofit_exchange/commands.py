@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from pyrofit.cli.common import add_step, find_study, open_study
+from pyrofit.cli.common import add_step, find_study, open_study, tell
 
 
 def add(commands: Any) -> None:
@@ -94,13 +94,9 @@ def _check_fds(given: argparse.Namespace) -> None:
 
     study, results = open_study(given)
     chosen = parameter_set(study, results, given.set, given.study.parent)
-    check_decks(study, chosen, find_fds(), results.fds(""), _tell, given.limit)
+    check_decks(study, chosen, find_fds(), results.fds(""), tell, given.limit)
     fds_page.draw_and_write(study, results)
     print(f"{results.fds('check.md')}: FDS beside pyrofit", file=sys.stderr)
-
-
-def _tell(text: str) -> None:
-    print(text, file=sys.stderr, flush=True)
 
 
 def _import_fds(given: argparse.Namespace) -> None:

@@ -16,8 +16,8 @@ from pyrofit.model.material import Material
 from pyrofit.results import diagnosis, identification
 from pyrofit.results.diagnosis_schema import OfExtended
 from pyrofit.results.files import Results, read_json
+from pyrofit.results.kinetics import fixed_for_imp
 from pyrofit.results.record import Record, made_of
-from pyrofit.stages.fit import fixed_for_imp
 from pyrofit.stages.predict import sets_of
 
 DIAGNOSIS, TRUTH = "diagnosis", "truth"

@@ -5,7 +5,7 @@ from tiny import Project
 
 import pyrofit as pf
 from pyrofit.results.files import Results
-from pyrofit.stages.fit import fixed_for_imp
+from pyrofit.results.kinetics import fixed_for_imp
 from pyrofit_exchange.sets import parameter_set
 
 

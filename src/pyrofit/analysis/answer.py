@@ -26,7 +26,7 @@ def answer_values(study: Study, results: Results) -> dict[str, float]:
         A result of the step identify is missing or broken.
     """
     found = identification.estimates(study, results)["estimate"]
-    return kinetics.given_to_imp(study, results) | {str(n): float(v) for n, v in found.items()}
+    return kinetics.fixed_for_imp(study, results) | {str(n): float(v) for n, v in found.items()}
 
 
 def one_each(study: Study, estimates: Sequence[Estimated]) -> list[Estimated]:

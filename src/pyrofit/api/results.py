@@ -16,8 +16,9 @@ from pyrofit.config import Study, read_study
 from pyrofit.errors import DataError, StudyError, suggest
 from pyrofit.results import diagnosis, recorded
 from pyrofit.results.files import Results
+from pyrofit.results.kinetics import fixed_for_imp
 from pyrofit.show.table import read_written_table
-from pyrofit.stages.fit import best_set_of_each_cost, fixed_for_imp
+from pyrofit.stages.fit import best_set_of_each_cost
 
 
 class Campaign:

@@ -5,12 +5,10 @@ from pathlib import Path
 
 from pyrofit.api.arguments import path_of
 from pyrofit.api.studies import Source, read_study
-from pyrofit.config import as_yaml
 from pyrofit.config.expand.programs import externals
 from pyrofit.config.keys.study import is_own
 from pyrofit.errors import StudyError
-from pyrofit.results.files import write_text
-from pyrofit.stages.own_files import seen_from
+from pyrofit.stages.own_files import seen_from, write_study_keys
 
 _COMMENT = "Run it: snakemake --cores 2 --configfile {}"
 
@@ -38,7 +36,5 @@ def write_study(study: Source, path: str | os.PathLike[str]) -> Path:
         for signal in experiment["signals"].values():
             if is_own(signal["file"]):
                 signal["file"] = seen_from(path.parent, signal["file"])
-    if study.plugins:
-        keys["plugins"] = [seen_from(path.parent, folder) for folder in study.plugins]
-    write_text(path, as_yaml(keys, _COMMENT.format(path.name)))
+    write_study_keys(study, keys, path, _COMMENT.format(path.name))
     return path

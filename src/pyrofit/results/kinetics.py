@@ -55,7 +55,7 @@ def parameters(study: Study, results: Results) -> dict[str, float]:
     return {str(name): float(value) for name, value in found.items()}
 
 
-def given_to_imp(study: Study, results: Results) -> dict[str, float]:
+def fixed_for_imp(study: Study, results: Results) -> dict[str, float]:
     """Return the values of all parameters that the inverse modelling does not estimate, SI units.
 
     Raises

@@ -17,9 +17,10 @@ from pyrofit.estimate.problem import Problem
 from pyrofit.estimate.targets import Measurements, term_for
 from pyrofit.results import searches
 from pyrofit.results.files import Results, write_csv
+from pyrofit.results.kinetics import fixed_for_imp
 from pyrofit.results.recorded import load
 from pyrofit.seeds import seed_for
-from pyrofit.stages.fit import fixed_for_imp, imp_problem
+from pyrofit.stages.fit import imp_problem
 
 Judges = dict[str, list[TermSpec]]
 

@@ -6,7 +6,7 @@ import shutil
 import numpy as np
 import pandas as pd
 
-from pyrofit.config import Study, as_yaml, digest
+from pyrofit.config import Study, digest
 from pyrofit.config.expand.programs import externals
 from pyrofit.config.resolve import diagnosed
 from pyrofit.diagnose.base.journal import Journal
@@ -19,9 +19,9 @@ from pyrofit.logs import Tell
 from pyrofit.provenance import source_fingerprint
 from pyrofit.results import dependencies, diagnosis
 from pyrofit.results.diagnosis_schema import Diagnosis
-from pyrofit.results.files import Results, write_csv, write_text
+from pyrofit.results.files import Results, write_csv
 from pyrofit.results.recorded import load
-from pyrofit.stages.own_files import files_seen_from, seen_from
+from pyrofit.stages.own_files import files_seen_from, write_study_keys
 
 EXTENDED = "extended.yaml"
 UNFINISHED = "unfinished"
@@ -55,9 +55,7 @@ def diagnose_study(study: Study, results: Results, tell: Tell, processes: int = 
     if effects:
         signals = dict(files_seen_from(study, results, path.parent))
         keys = extended_keys(study, found.end, signals)
-        if study.plugins:
-            keys["plugins"] = [seen_from(path.parent, folder) for folder in study.plugins]
-        write_text(path, as_yaml(keys, _COMMENT))
+        write_study_keys(study, keys, path, _COMMENT)
     content = found.content.model_copy(update={"extended_study": EXTENDED if effects else ""})
     write_csv(results.diagnosis("curves.csv"), found.curves)
     diagnosis.write(results, content)

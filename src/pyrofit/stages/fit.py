@@ -74,14 +74,6 @@ def fit_kinetics(study: Study, results: Results) -> None:
     write_record(results.kinetics("fit.json"), found)
 
 
-def fixed_for_imp(study: Study, results: Results) -> dict[str, float]:
-    """Return the values of all parameters that the inverse modelling does not estimate.
-
-    Fitted kinetics are the estimates of the answer.
-    """
-    return kinetics.given_to_imp(study, results)
-
-
 def imp_problem(study: Study, results: Results, cost: str) -> Problem:
     """Return the inverse-modelling problem of one cost function, as optimisers search it."""
     if cost not in study.imp.costs:
@@ -89,7 +81,7 @@ def imp_problem(study: Study, results: Results, cost: str) -> Problem:
             f"study '{study.name}' has no cost '{cost}'. {suggest(cost, study.imp.costs)}"
         )
     asked = of_imp(study, study.imp.costs[cost])
-    return pose(study, asked, load(study, results), fixed_for_imp(study, results))
+    return pose(study, asked, load(study, results), kinetics.fixed_for_imp(study, results))
 
 
 def repeat(study: Study, results: Results, cost: str, repetitions: Sequence[int]) -> None:

@@ -9,8 +9,8 @@ from pyrofit.estimate.pose import Estimation
 from pyrofit.estimate.pose_likelihood import pose_likelihood
 from pyrofit.results import searches
 from pyrofit.results.files import Results
+from pyrofit.results.kinetics import fixed_for_imp
 from pyrofit.results.recorded import load
-from pyrofit.stages.fit import fixed_for_imp
 
 
 def imp_likelihood(

@@ -5,9 +5,9 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from pyrofit.config import Study
+from pyrofit.config import Study, as_yaml
 from pyrofit.config.keys.study import is_own
-from pyrofit.results.files import Results, read_csv
+from pyrofit.results.files import Results, read_csv, write_text
 
 
 def files_seen_from(
@@ -34,3 +34,10 @@ def files_seen_from(
 def seen_from(folder: Path, path: str | Path) -> str:
     """Return a path relative to a folder."""
     return Path(os.path.relpath(path, folder)).as_posix()
+
+
+def write_study_keys(study: Study, keys: dict[str, Any], path: Path, comment: str) -> None:
+    """Write keys that were made of a study as a study file; it finds the study's plugins."""
+    if study.plugins:
+        keys["plugins"] = [seen_from(path.parent, folder) for folder in study.plugins]
+    write_text(path, as_yaml(keys, comment))

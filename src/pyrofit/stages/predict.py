@@ -13,10 +13,11 @@ from pyrofit.experiments import kind_of
 from pyrofit.quantities.base import Quantity
 from pyrofit.results import identification, searches
 from pyrofit.results.files import Results, write_csv
+from pyrofit.results.kinetics import fixed_for_imp
 from pyrofit.results.recorded import load
 from pyrofit.simulate import solver_errors
 from pyrofit.solver.arrays import FloatArray, Values
-from pyrofit.stages.fit import best_set_of_each_cost, fixed_for_imp
+from pyrofit.stages.fit import best_set_of_each_cost
 from pyrofit.stages.unmeasured import check_finished, predict_unmeasured
 
 

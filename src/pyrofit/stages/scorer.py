@@ -15,8 +15,8 @@ from pyrofit.estimate.targets import Measurements
 from pyrofit.numerics import linear
 from pyrofit.parallel import MOST_PIECES, parallel_map
 from pyrofit.results.files import Results
+from pyrofit.results.kinetics import fixed_for_imp
 from pyrofit.solver.arrays import FloatArray
-from pyrofit.stages.fit import fixed_for_imp
 from pyrofit.stages.imp_likelihood import imp_likelihood
 
 AT_ONCE = 128

@@ -18,12 +18,12 @@ from pyrofit.external.filled import executable_digest, executable_of, file_diges
 from pyrofit.external.runs import Outcome, outcomes
 from pyrofit.model.external import ExternalExperiment
 from pyrofit.results.files import Results
+from pyrofit.results.kinetics import fixed_for_imp
 from pyrofit.results.record import write_record
 from pyrofit.results.recorded import load
 from pyrofit.results.trial import TimedRun, Trial
 from pyrofit.running.durations import in_words
 from pyrofit.seeds import seed_for
-from pyrofit.stages.fit import fixed_for_imp
 
 DRAWS = 4
 """Largest number of drawn sets that are tried if the middle of the limits fails."""

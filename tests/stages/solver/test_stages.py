@@ -332,7 +332,7 @@ def test_inverse_modelling_takes_the_estimates_of_the_kinetics(results: Results)
     frame = read_csv(results.identification("estimate.csv", "kinetics"))
     fitted = dict(zip(frame["parameter"], frame["estimate"], strict=True))
     assert fitted != read_json(results.kinetics("fit.json"))["parameters"]
-    assert fit.fixed_for_imp(study, results) == fitted
+    assert kinetics.fixed_for_imp(study, results) == fitted
     problem = fit.imp_problem(study, results, "RMSE")
     assert problem.fixed == fitted
     assert problem.names == ("rho", "k", "cp", "eps", "dh")

@@ -14,7 +14,7 @@ from pyrofit.cli import main
 from pyrofit.config import Study
 from pyrofit.estimate.pose import of_imp
 from pyrofit.estimate.problem import make_problem
-from pyrofit.results import recorded, searches
+from pyrofit.results import kinetics, recorded, searches
 from pyrofit.results.files import Results, read_csv
 from pyrofit.results.step import write_options
 from pyrofit.stages import fit, identify, measurements
@@ -82,7 +82,7 @@ def test_scores_are_those_of_each_cost_alone(study: Study, results: Results) -> 
     row = sets.iloc[7]
     values = row[list(study.imp.estimate)].to_numpy(float)
     series = recorded.load(study, results)
-    material, fixed = study.material, fit.fixed_for_imp(study, results)
+    material, fixed = study.material, kinetics.fixed_for_imp(study, results)
     channels = study.imp.channels
     problem = make_problem(study, study.imp.estimate, channels, series, material, fixed)
     _, (model,) = problem.simulate(values)

@@ -33,19 +33,14 @@ def check_places(study: Study) -> None:
 def _check_depth(study: Study, experiment: SlabExperiment, depth: float | str, place: str) -> None:
     """Refuse a depth that may exceed that of sample and backing, within the limits of all."""
     sample = experiment.sample
-    thinnest = min(_limits(study, sample.thickness_factor)) * sum(
-        min(_limits(study, layer.thickness_m)) for layer in sample.layers
+    thinnest = min(ends_of(study, sample.thickness_factor)) * sum(
+        min(ends_of(study, layer.thickness_m)) for layer in sample.layers
     )
-    thinnest += sum(min(_limits(study, layer.thickness_m)) for layer in sample.backing)
-    deepest = max(_limits(study, depth))
+    thinnest += sum(min(ends_of(study, layer.thickness_m)) for layer in sample.backing)
+    deepest = max(ends_of(study, depth))
     require(
         deepest <= thinnest * (1.0 + 1e-9),
         place,
         f"{deepest:g} m lies outside the sample, whose layers are {thinnest:g} m thick together; "
         "depths count from the initial front. Give one within the sample",
     )
-
-
-def _limits(study: Study, number: float | str) -> list[float]:
-    """Return a number, or the values that a parameter can have at least and at most, SI units."""
-    return ends_of(study, number)

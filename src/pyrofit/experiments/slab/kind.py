@@ -8,11 +8,11 @@ from numpy.typing import NDArray
 from pyrofit.experiments.base import Course, Designs, Kind
 from pyrofit.experiments.conversion import conversion
 from pyrofit.experiments.from_files import FromFiles
-from pyrofit.experiments.slab.simulate import reference, request, simulate, synthetic
+from pyrofit.experiments.slab.simulate import reference, request, synthetic
 from pyrofit.model.accuracy import Accuracy
 from pyrofit.model.material import Material
 from pyrofit.model.slab import SlabExperiment
-from pyrofit.simulate import simulate_gasification
+from pyrofit.simulate import simulate_gasification, simulate_slabs
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.curves import Request
 from pyrofit.solver.outputs import BACK, FRONT, MASS, RATE
@@ -63,7 +63,7 @@ def slab_kind(description: type[SlabExperiment], designs: Designs, files: FromFi
         description=description,
         words=description.APPARATUS,
         stage="imp",
-        simulate=simulate,
+        simulate=simulate_slabs,
         reference=reference,
         request=request,
         synthetic=synthetic,

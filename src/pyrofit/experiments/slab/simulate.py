@@ -6,26 +6,12 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.experiments.base import Asked
-from pyrofit.model.accuracy import Accuracy, Resolution
+from pyrofit.model.accuracy import Resolution
 from pyrofit.model.material import Material
 from pyrofit.model.signal import Signal
 from pyrofit.model.slab import SlabExperiment
-from pyrofit.simulate import simulate_slabs
-from pyrofit.solver.arrays import FloatArray, Values
+from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.curves import Curves, Place, Request
-
-
-def simulate(
-    experiments: Sequence[SlabExperiment],
-    material: Material,
-    values: Values,
-    asked: Sequence[Asked],
-    accuracy: Accuracy,
-    sets: int = 1,
-    led: bool = False,
-) -> list[list[Curves]]:
-    """Return the curves by experiment and set."""
-    return simulate_slabs(experiments, material, values, asked, accuracy, sets, led)
 
 
 def reference(

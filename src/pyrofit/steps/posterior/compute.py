@@ -16,9 +16,9 @@ from pyrofit.logs import Tell
 from pyrofit.numerics import linear
 from pyrofit.results import identification
 from pyrofit.results.files import Results, write_csv, write_json
+from pyrofit.results.kinetics import fixed_for_imp
 from pyrofit.results.recorded import load
 from pyrofit.solver.arrays import FloatArray
-from pyrofit.stages.fit import fixed_for_imp
 from pyrofit.stages.imp_likelihood import imp_likelihood
 from pyrofit.steps.posterior import record
 from pyrofit.steps.posterior.bands import predict_with_bands

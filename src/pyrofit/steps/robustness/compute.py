@@ -22,10 +22,10 @@ from pyrofit.estimate.targets import Measurements, target_of
 from pyrofit.logs import Tell
 from pyrofit.quantities.base import Quantity
 from pyrofit.results.files import Results, write_csv
+from pyrofit.results.kinetics import fixed_for_imp
 from pyrofit.results.recorded import load
 from pyrofit.seeds import seed_for
 from pyrofit.solver.arrays import FloatArray
-from pyrofit.stages.fit import fixed_for_imp
 from pyrofit.steps.robustness.options import RobustnessOptions
 from pyrofit.steps.robustness.twins import NOISE, OUTLIERS, true_set
 

@@ -2,17 +2,17 @@
 
 from pathlib import Path
 
-from pyrofit.config import Study, as_yaml
+from pyrofit.config import Study
 from pyrofit.logs import Tell
 from pyrofit.results import recorded
-from pyrofit.results.files import Results, write_csv, write_text
+from pyrofit.results.files import Results, write_csv
 from pyrofit.scheme.choice import Choice, choose_scheme
 from pyrofit.scheme.extended import scheme_keys
 from pyrofit.scheme.fit import SchemeSetting
 from pyrofit.scheme.masses import masses_of
 from pyrofit.scheme.records import records_of
 from pyrofit.scheme.settings import SchemeSettings
-from pyrofit.stages.own_files import files_seen_from, seen_from
+from pyrofit.stages.own_files import files_seen_from, write_study_keys
 from pyrofit.steps.scheme import record
 from pyrofit.steps.scheme.found import curves_of, scheme_found
 
@@ -51,9 +51,5 @@ def run(study: Study, results: Results, tell: Tell, processes: int) -> Choice:
 
 def write(study: Study, results: Results, found: Choice, path: Path) -> None:
     """Write the study with the chosen scheme; it names the files of the study from there."""
-    keys = scheme_keys(
-        study, found.chosen.fitted, dict(files_seen_from(study, results, path.parent))
-    )
-    if study.plugins:
-        keys["plugins"] = [seen_from(path.parent, folder) for folder in study.plugins]
-    write_text(path, as_yaml(keys, _COMMENT))
+    signals = dict(files_seen_from(study, results, path.parent))
+    write_study_keys(study, scheme_keys(study, found.chosen.fitted, signals), path, _COMMENT)

@@ -12,7 +12,7 @@ from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.pose import of_both
 from pyrofit.experiments.external.simulate import OWN_MODEL
 from pyrofit.results.files import Results, read_csv
-from pyrofit.stages.fit import fixed_for_imp
+from pyrofit.results.kinetics import fixed_for_imp
 from pyrofit.stages.imp_likelihood import imp_likelihood
 
 
