@@ -5,6 +5,8 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from pyrofit.cli.common import study_with_results
+
 if TYPE_CHECKING:
     import pandas as pd
 
@@ -57,13 +59,10 @@ def _add_compare_with(commands: Any) -> None:
 
 
 def _compare(given: argparse.Namespace) -> None:
-    from pyrofit.config import read_study
-    from pyrofit.results.files import Results
     from pyrofit_compare.compute import compute_comparison
     from pyrofit_compare.page import mean_errors, write
 
-    study = read_study(given.study)
-    results = Results(given.results or Path("results") / study.name)
+    study, results = study_with_results(given)
     found = compute_comparison(
         study, results, given.tests, given.predictions, given.set, given.study.parent
     )

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from pyrofit.cli.common import add_step, find_study, open_study, tell
+from pyrofit.cli.common import add_step, open_study, study_with_results, tell
 
 
 def add(commands: Any) -> None:
@@ -49,13 +49,10 @@ def _program(
 
 
 def _export_other(given: argparse.Namespace) -> None:
-    from pyrofit.config import read_study
-    from pyrofit.results.files import Results
     from pyrofit_exchange import programs
     from pyrofit_exchange.sets import parameter_set
 
-    study = read_study(given.study)
-    results = Results(given.results or Path("results") / study.name)
+    study, results = study_with_results(given)
     chosen = parameter_set(study, results, given.set, given.study.parent)
     folder = given.out or results.root / given.program
     if given.program == "spyro":
@@ -71,14 +68,12 @@ def _export_other(given: argparse.Namespace) -> None:
 
 
 def _export_fds(given: argparse.Namespace) -> None:
-    from pyrofit.results.files import Results
     from pyrofit_exchange.fds.export import MATERIAL, export
     from pyrofit_exchange.fds.versions import version_of
     from pyrofit_exchange.sets import parameter_set
 
     version = version_of(given.fds_version)
-    study = find_study(given)
-    results = Results(given.results or Path("results") / study.name)
+    study, results = study_with_results(given)
     chosen = parameter_set(study, results, given.set, given.study.parent)
     folder = given.out or results.fds("")
     for line in export(study, chosen, version, folder, []):

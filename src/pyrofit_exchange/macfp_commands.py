@@ -4,6 +4,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
+from pyrofit.cli.common import study_with_results
 from pyrofit.errors import DataError
 
 
@@ -85,14 +86,11 @@ def _predict(given: argparse.Namespace) -> None:
 
 
 def _submit(given: argparse.Namespace) -> None:
-    from pyrofit.config import read_study
-    from pyrofit.results.files import Results
     from pyrofit_exchange.macfp.asked import Submission
     from pyrofit_exchange.macfp.submit import submit
     from pyrofit_exchange.sets import parameter_set
 
-    study = read_study(given.study)
-    results = Results(given.results or Path("results") / study.name)
+    study, results = study_with_results(given)
     chosen = parameter_set(study, results, given.set, given.study.parent)
     forms = (3, 4) if given.form == "both" else (int(given.form),)
     folder = given.out or results.root / "macfp"

@@ -12,12 +12,12 @@ import numpy as np
 
 from pyrofit.model.material import Material
 from pyrofit.model.slab import SlabExperiment
+from pyrofit.quantities.units import ICE_POINT_K
 from pyrofit.solver.arrays import FloatArray
 from pyrofit_exchange.fds.layers import layer_keys, own_layers
 from pyrofit_exchange.fds.materials import MaterialLines, Options, Values, write_materials
 from pyrofit_exchange.fds.namelists import Item, Namelist
 from pyrofit_exchange.fds.predicted import BURNT_KG_M2S
-from pyrofit_exchange.fds.properties import CELSIUS_K
 from pyrofit_exchange.fds.versions import NEW, FdsError
 
 MOST_CURVES = 10
@@ -113,7 +113,7 @@ def scaling_lines(
         "ID": name,
         **layer_keys(layer, lines),
         "HRRPUA": 1.0,
-        "IGNITION_TEMPERATURE": round(ignition_K - CELSIUS_K, 2),
+        "IGNITION_TEMPERATURE": round(ignition_K - ICE_POINT_K, 2),
         f"RAMP_Q{several}": names,
         f"REFERENCE_HEAT_FLUX{several}": [1e-3 * c.flux_W_m2 for c in curves],
         f"REFERENCE_THICKNESS{several}": [c.thickness_m for c in curves],

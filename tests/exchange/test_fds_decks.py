@@ -14,11 +14,11 @@ from pyrofit.constants import STEFAN_BOLTZMANN as SIGMA
 from pyrofit.effects import known_effects
 from pyrofit.experiments import Cone
 from pyrofit.model.slab import SlabExperiment
+from pyrofit.quantities.units import ICE_POINT_K
 from pyrofit_exchange.fds.exposure import surroundings
 from pyrofit_exchange.fds.include import FACTOR
 from pyrofit_exchange.fds.namelists import unique
 from pyrofit_exchange.fds.orders import first_order_sum, same_half_time
-from pyrofit_exchange.fds.properties import CELSIUS_K
 from pyrofit_exchange.fds.remarks import Remark
 from pyrofit_exchange.fds.slab import Deck
 from pyrofit_exchange.fds.unwritten import unwritten
@@ -147,7 +147,7 @@ def test_an_order_below_one_is_named() -> None:
 def net(deck: Deck, T: float) -> float:
     """Return the net flux [W/m2] into the front as FDS has it."""
     (surface,), (misc,) = keys(deck, "SURF"), keys(deck, "MISC")
-    T_0 = float(str(misc["TMPA"][0])) + CELSIUS_K
+    T_0 = float(str(misc["TMPA"][0])) + ICE_POINT_K
     q = 1e3 * float(str(surface["EXTERNAL_FLUX"][0]))
     h = float(str(surface["HEAT_TRANSFER_COEFFICIENT"][0]))
     eps = float(str(keys(deck, "MATL")[0]["EMISSIVITY"][0]))

@@ -72,6 +72,14 @@ def find_study(given: argparse.Namespace) -> Any:
     return read_study(given.study)
 
 
+def study_with_results(given: argparse.Namespace) -> Any:
+    """Return study and results of a command that only reads them."""
+    from pyrofit.results.files import Results
+
+    study = find_study(given)
+    return study, Results(given.results or Path("results") / study.name)
+
+
 def open_study(
     given: argparse.Namespace, change: Callable[[Any], Any] = lambda study: study
 ) -> Any:
@@ -82,10 +90,9 @@ def open_study(
     """
     from pyrofit.config.expand.programs import externals, keeping_runs
     from pyrofit.external.scratch import sweep_scratch
-    from pyrofit.results.files import Results
     from pyrofit.running.lock import job
 
-    study = find_study(given)
+    study, results = study_with_results(given)
     cost = getattr(given, "cost", None)
     if cost is not None and cost not in study.imp.costs:
         raise StudyError(
@@ -93,9 +100,8 @@ def open_study(
             + suggest(cost, study.imp.costs)
         )
     study = change(study)
-    root = given.results or Path("results") / study.name
-    given.until_end.enter_context(job(root))
+    given.until_end.enter_context(job(results.root))
     if externals(study):
         sweep_scratch()
-        study = keeping_runs(study, root / "programs")
-    return study, Results(root)
+        study = keeping_runs(study, results.root / "programs")
+    return study, results

@@ -2,12 +2,12 @@
 
 from pyrofit.model.heated import HeatedExperiment
 from pyrofit.model.material import Material
+from pyrofit.quantities.units import ICE_POINT_K
 from pyrofit.solver.lower import fractions
 from pyrofit_exchange.fds.gases import gas_around
 from pyrofit_exchange.fds.layers import FdsLayer, layer_keys
 from pyrofit_exchange.fds.materials import Options, Values, write_materials
 from pyrofit_exchange.fds.namelists import Namelist
-from pyrofit_exchange.fds.properties import CELSIUS_K
 from pyrofit_exchange.fds.remarks import once
 from pyrofit_exchange.fds.slab import Deck
 from pyrofit_exchange.fds.unwritten import unwritten_heated
@@ -42,13 +42,13 @@ def heated_deck(
     material = around.material
     layer = virgin(material, values)
     lines = write_materials(material, values, list(layer.shares), Options(version))
-    start = experiment.start_temperature_K - CELSIUS_K
+    start = experiment.start_temperature_K - ICE_POINT_K
     title = f"{experiment.heating_rate_K_min:g} K per min"
     surface = {
         "ID": "SAMPLE",
         "TGA_ANALYSIS": True,
         "TGA_HEATING_RATE": experiment.heating_rate_K_min,
-        "TGA_FINAL_TEMPERATURE": round(last_K - CELSIUS_K, 6),
+        "TGA_FINAL_TEMPERATURE": round(last_K - ICE_POINT_K, 6),
         "COLOR": "RED",
         **{k: v for k, v in layer_keys([layer], lines).items() if "STRETCH" not in k},
     }

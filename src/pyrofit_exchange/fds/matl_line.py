@@ -6,11 +6,11 @@ from typing import Any, NamedTuple
 
 from pyrofit.config.check.cold import reacts_cold
 from pyrofit.constants import GAS_CONSTANT
+from pyrofit.quantities.units import ICE_POINT_K
 from pyrofit_exchange.fds.arrays import array
 from pyrofit_exchange.fds.depth import TWO_FLUX
 from pyrofit_exchange.fds.materials import R_FDS, REFERENCE_RATE_1_S
 from pyrofit_exchange.fds.peak import HEATING_RATE_K_MIN, PYROLYSIS_RANGE_K, Peak, fds_kinetics
-from pyrofit_exchange.fds.properties import CELSIUS_K
 from pyrofit_exchange.fds.versions import FdsError, Version
 
 Keys = dict[str, Any]
@@ -78,7 +78,7 @@ def component(
         if len(points) < 2:
             raise FdsError(f"{matl.place}: the RAMP '{ramp}' has {len(points)} lines; it needs 2")
         table = {
-            "temperature_K": [round(T + CELSIUS_K, 6) for T, _ in points],
+            "temperature_K": [round(T + ICE_POINT_K, 6) for T, _ in points],
             "value": [_digits(factor * F) for _, F in points],
         }
         yield own, table

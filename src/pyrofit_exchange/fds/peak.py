@@ -3,8 +3,8 @@
 import math
 from typing import NamedTuple
 
+from pyrofit.quantities.units import ICE_POINT_K
 from pyrofit_exchange.fds.materials import R_FDS
-from pyrofit_exchange.fds.properties import CELSIUS_K
 from pyrofit_exchange.fds.versions import FdsError
 
 HEATING_RATE_K_MIN, PYROLYSIS_RANGE_K = 5.0, 80.0
@@ -52,7 +52,7 @@ def fds_kinetics(peak: Peak, counts_gas: bool) -> tuple[float, float]:
     >>> print(f"{A:.4g} 1/s, {E:.0f} J/mol")
     1.394e+16 1/s, 219409 J/mol
     """
-    T, beta = peak.temperature_C + CELSIUS_K, peak.heating_K_min / 60.0
+    T, beta = peak.temperature_C + ICE_POINT_K, peak.heating_K_min / 60.0
     if min(T, beta, peak.range_K) <= 0.0:
         raise FdsError("temperature [K], heating rate and range must be above 0")
     rate = peak.rate_1_s

@@ -5,11 +5,11 @@ from collections.abc import Callable
 import numpy as np
 
 from pyrofit.model.properties import Property
+from pyrofit.quantities.units import ICE_POINT_K
 from pyrofit.solver.arrays import TABLE_TEMPERATURES_K, FloatArray, Values
 from pyrofit.solver.lower_property import property_table
 from pyrofit_exchange.fds.namelists import Item, Namelist
 
-CELSIUS_K = 273.15
 NEGLIGIBLE = 1e-6
 """Relative difference of a straight line to points that it may replace."""
 
@@ -74,7 +74,7 @@ def written(
     T = TABLE_TEMPERATURES_K
     lines = [
         Namelist(
-            "RAMP", {"ID": ramp, "T": round(float(T[n]) - CELSIUS_K, 6), "F": float(scaled[n])}
+            "RAMP", {"ID": ramp, "T": round(float(T[n]) - ICE_POINT_K, 6), "F": float(scaled[n])}
         )
         for n in needed(T, scaled)
     ]

@@ -7,8 +7,8 @@ import numpy as np
 import pandas as pd
 
 from pyrofit.numerics import linear
+from pyrofit.quantities.units import ICE_POINT_K
 from pyrofit.solver.outputs import MASS_FRACTION
-from pyrofit_exchange.fds.properties import CELSIUS_K
 from pyrofit_exchange.fds.records import DEVICES
 from pyrofit_exchange.fds.versions import FdsError
 
@@ -71,7 +71,7 @@ def read_devc(path: Path, weights: Sequence[float] = (1.0,)) -> pd.DataFrame:
     before = np.concatenate([[time[0]], time[:-1]])
     frame = pd.DataFrame({"time_s": 0.5 * (time + before), "end_s": time, **found}).iloc[1:]
     kelvin = ["back_K", "front_K"]
-    frame[kelvin] += CELSIUS_K
+    frame[kelvin] += ICE_POINT_K
     return frame.reset_index(drop=True)
 
 
@@ -92,7 +92,7 @@ def read_tga(path: Path) -> pd.DataFrame:
     if temperature is None or mass is None:
         raise FdsError(f"{path.name}: the columns 'Temp' and 'Total mass' are missing")
     left = raw[mass].to_numpy(float)
-    T = raw[temperature].to_numpy(float) + CELSIUS_K
+    T = raw[temperature].to_numpy(float) + ICE_POINT_K
     falls = np.flatnonzero(np.diff(T) <= 0.0)  # FDS's temperature of a sample that is gone
     end = int(falls[0]) + 1 if falls.size else len(T)
     return pd.DataFrame({"temperature_K": T[:end], MASS_FRACTION: left[:end] / left[0]})

@@ -7,6 +7,7 @@ import numpy as np
 from pyrofit.model.base import value_of
 from pyrofit.model.material import Material
 from pyrofit.model.slab import EmissivityDepth, SlabExperiment
+from pyrofit.quantities.units import ICE_POINT_K
 from pyrofit_exchange.fds.depth import absorption
 from pyrofit_exchange.fds.exposure import FdsSurroundings, Flux, surroundings
 from pyrofit_exchange.fds.gases import gas_around
@@ -14,7 +15,6 @@ from pyrofit_exchange.fds.layers import FdsLayer, foil_layers, layer_keys, own_l
 from pyrofit_exchange.fds.materials import MaterialLines, Options, Values, write_materials
 from pyrofit_exchange.fds.namelists import Item, Namelist
 from pyrofit_exchange.fds.predicted import PredictedByPyrofit
-from pyrofit_exchange.fds.properties import CELSIUS_K
 from pyrofit_exchange.fds.records import CELL_M, closing
 from pyrofit_exchange.fds.remarks import Remark, once
 from pyrofit_exchange.fds.spots import spots_of
@@ -170,7 +170,7 @@ def _head(
 
 
 def _celsius(T: float) -> float:
-    return round(T - CELSIUS_K, 9)
+    return round(T - ICE_POINT_K, 9)
 
 
 def _surfaces(
