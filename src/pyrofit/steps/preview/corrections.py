@@ -112,8 +112,7 @@ def _of_one(
     experiment = case.experiments[name]
     yield from _temperatures(case, name, outside)
     if isinstance(experiment, SlabExperiment):
-        yield from _fluxes(name)
-        yield from _thicknesses(name)
+        yield from _powers_of_ten(name)
         yield from _surroundings(experiment, name)
     yield from _clocks(case, name)
     if isinstance(experiment, HeatedExperiment):
@@ -143,24 +142,15 @@ _UNITS: dict[str, Callable[[Any], Any]] = {
 }
 
 
-def _fluxes(name: str) -> Iterator[LikelyCause]:
-    for factor in TENS:
-        yield LikelyCause(
-            FLUX,
-            (name,),
-            f"the flux of {name} is {_off(factor)}",
-            part_changed(name, "front", "flux_factor", factor),
-        )
-
-
-def _thicknesses(name: str) -> Iterator[LikelyCause]:
-    for factor in TENS:
-        yield LikelyCause(
-            THICKNESS,
-            (name,),
-            f"the thickness of {name} is {_off(factor)}",
-            part_changed(name, "sample", "thickness_factor", factor),
-        )
+def _powers_of_ten(name: str) -> Iterator[LikelyCause]:
+    for kind, what, place in ((FLUX, "flux", "front"), (THICKNESS, "thickness", "sample")):
+        for factor in TENS:
+            yield LikelyCause(
+                kind,
+                (name,),
+                f"the {what} of {name} is {_off(factor)}",
+                part_changed(name, place, f"{what}_factor", factor),
+            )
 
 
 def _surroundings(experiment: SlabExperiment, name: str) -> Iterator[LikelyCause]:
