@@ -6,7 +6,6 @@ from typing import Annotated, Any, Self
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from pyrofit_exchange.macfp.forms import (
-    Curve,
     Line,
     Lines,
     Nothing,
@@ -138,6 +137,3 @@ def schema() -> dict[str, Any]:
     """Return the JSON Schema of the strict form."""
     found = StrictSet.model_json_schema(by_alias=True)
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", **found}
-
-
-__all__ = ["Curve", "StrictSet", "schema"]
