@@ -8,6 +8,7 @@ import numpy as np
 
 from pyrofit.cost import Target
 from pyrofit.estimate.correlation import Correlation
+from pyrofit.estimate.derivatives import SECANT, Difference
 from pyrofit.estimate.identify import Identification
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.noise import NoiseModel
@@ -31,6 +32,10 @@ class Posed:
     upper: FloatArray
     formula: Any
     target: Target
+
+    @property
+    def difference(self) -> Difference:
+        return SECANT
 
     @property
     def span(self) -> FloatArray:
