@@ -39,7 +39,8 @@ def judge(found: Search, rng: np.random.Generator, processes: int = 1) -> Verdic
         return _without_effects(found)
     context = SearchContext(rng, processes=processes)
     found, without = end_without_superfluous(found, context)
-    if not found.end_lack.adequate and (part := _partly(found, without, context)):
+    failed: list[tuple[str, str]] = []
+    if not found.end_lack.adequate and (part := _partly(found, without, context, failed)):
         return part
     findings = findings_of(found, without, context)
     reasons = _reasons(findings)
@@ -48,9 +49,10 @@ def judge(found: Search, rng: np.random.Generator, processes: int = 1) -> Verdic
         found, reasons = with_end(found, findings[0].kept[0].trial, rng), []
         (of_end,) = findings_of(found, without, context)
         findings = (replace(findings[0], instead=of_end.instead),)
-    elif reasons and found.end_lack.adequate and (part := _partly(found, without, context)):
+    elif reasons and found.end_lack.adequate and (part := _partly(found, without, context, [])):
         return part
     if not found.end_lack.adequate:
+        reasons += [] if reasons else [f"{effect}: {why}" for effect, why in failed]
         reasons.append("the residuals exceed the noise, with every effect that gains enough")
     of_base = found.rounds[0].lack()
     if reasons and of_base.passes:
@@ -104,21 +106,24 @@ def _reasons(findings: Sequence[Finding]) -> list[str]:
 
 
 def _partly(
-    found: Search, without: Sequence[FittedModel], context: SearchContext
+    found: Search,
+    without: Sequence[FittedModel],
+    context: SearchContext,
+    taken_away: list[tuple[str, str]],
 ) -> Verdict | None:
     """Return the verdict on the effects that pass every test, if there are any.
 
     Effects that fail a test are taken away one by one, the one that gains least first; the others
     are judged again. They usually explain a part only. None is claimed where all together leave
     nothing but noise: if one of these fails, the others may stand for a missing effect as well.
+    ``taken_away`` gets them, each with its reason.
     """
     all_fit, processes = found.end_lack.adequate, context.processes
-    taken_away: list[tuple[str, str]] = []
     while (failed := _first_failed(found, without, context)) is not None:
-        if len(without) == 1:
-            return None
         position, reason = failed
         taken_away.append((found.end.effects[position], reason))
+        if len(without) == 1:
+            return None
         found, without = end_without_superfluous(
             with_end(found, without[position], context.rng), context
         )
