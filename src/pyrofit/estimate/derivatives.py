@@ -42,12 +42,12 @@ def derivatives(
     """Return d curve / d x, and which derivatives were found; the others are zero.
 
     The first set of ``curves`` is x, whose cells and time steps the others take. With steps of
-    their own, the difference of two curves would be divided by a small distance that holds the
-    change of the solver's error as well (Bock 1981, doi 10.1007/978-3-642-68220-9_8).
+    their own, the difference of two curves would hold the change of the solver's error, and be
+    divided by a small distance (Bock 1981, doi 10.1007/978-3-642-68220-9_8).
 
-    By one point it is the slope of the secant through x and that, by two that of the parabola: the
-    central difference inside the limits, the one-sided one at a limit. With the distances h and the
-    differences d of the curve at these points,
+    By one point it is the slope of the secant through x and that, by two that of the parabola. This
+    is the central difference inside the limits, and the one-sided one at a limit. With the
+    distances h and the differences d of the curve at these points,
 
         d_1 / h_1,    (d_1 h_2 / h_1 - d_2 h_1 / h_2) / (h_2 - h_1).
 
