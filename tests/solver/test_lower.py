@@ -174,6 +174,20 @@ def test_network_by_hand() -> None:
     assert not network.plain
 
 
+@pytest.mark.parametrize(("oxygen_order", "heat"), [(0.0, 0.0), (1.0, -4e5)])
+def test_heat_release_takes_the_heat_of_reactions_with_oxygen_only(
+    oxygen_order: float, heat: float
+) -> None:
+    """A heat of reaction that only slabs show has no value while kinetics are fitted."""
+    words = {"heat_of_reaction_J_kg": "dh", "heat_of_combustion_J_kg": 2e7}
+    matter = material({"1": reaction("A", oxygen_order=oxygen_order, **words)})
+    values = VALUES | ({"dh": heat} if oxygen_order else {})
+    network = lower_network.lower_network(matter, values, heats=False, oxygen=0.2)
+    assert network.combustion.tolist() == [[2e7]]
+    assert network.heat.tolist() == [[heat]]
+    assert network.glow.tolist() == [[-heat]]
+
+
 @pytest.mark.parametrize(
     ("reactions", "plain"),
     [

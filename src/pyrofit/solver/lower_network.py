@@ -133,11 +133,15 @@ def lower_network(
     """Return the reactions as arrays, sorted so that products react after their formation.
 
     Without ``heats`` the heats of reaction are left out, without ``burning`` those of combustion:
-    the mass of a sample whose temperature is prescribed depends on neither. ``oxygen`` is the
+    the mass of a sample whose temperature is prescribed depends on neither. The heat release of
+    reactions with oxygen takes their heats of reaction in any case. ``oxygen`` is the
     volume fraction in a gas that reaches all of the sample. That of a slab is 1 where the kernel
     takes its fall over depth and time into account, and 0 where there is none.
     """
-    left_out = () if burning else _HEATS[1:] if heats else _HEATS
+    heats |= burning and material.oxidises and oxygen != 0.0
+    left_out = tuple(
+        name for name, used in zip(_HEATS, (heats, burning), strict=True) if not used
+    )
     plan = material.derived(("network", left_out), lambda m: _plan(m, left_out))
     rates = plan.kinetics.lowered(values, sets, _kinetics)
     solid = plan.yields.lowered(values, sets, partial(_solid, plan, len(material.components)))
