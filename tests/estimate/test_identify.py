@@ -1,5 +1,7 @@
 """Intervals and verdicts on models whose chi-square is known in closed form."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from line_model import LINE, TIME, WHITE, N, by_name, likelihood, line
@@ -9,6 +11,7 @@ from pyrofit.estimate.derivatives import SECANT
 from pyrofit.estimate.identify import identify, verdict
 from pyrofit.estimate.likelihood import FAILED, fit
 from pyrofit.estimate.profile import Interval, Profile
+from pyrofit.results.goodness import LEVEL
 from pyrofit.solver.arrays import FloatArray
 
 
@@ -83,6 +86,22 @@ def test_value_that_rests_on_a_limit_reached_is_weakly_determined(
     found = by_name(identify(posed, [np.array([0.5, 0.5])]))
     assert found["a"].interval.width < 0.03
     assert found["a"].verdict == verdict_of_a
+
+
+def test_verdict_is_that_on_the_likeliest_values_where_least_squares_miss_less() -> None:
+    """Lasting errors weigh little: the likeliest curve follows the waves, and is far off."""
+    waves = 0.05 * np.sin(60.0 * TIME)
+    value = 0.4 * TIME + waves + 0.01 * WHITE
+    posed = likelihood(lambda x: x[0] * (TIME + waves), value, 0.01, ((0.0, 2.0),))
+    noise = replace(posed.noise[0], modes=TIME[:, None])
+    found = identify(replace(posed, noise=(noise,)), [np.array([0.5])])
+    (estimate,), (signal,) = found.estimates, found.goodness.signals
+    assert estimate.verdict == "apparent value"
+    assert 2.0 * estimate.x == pytest.approx(0.4, abs=0.02)  # of least squares
+    assert found.goodness.p >= LEVEL
+    assert not found.goodness.describes
+    assert signal.far_off
+    assert signal.misses
 
 
 def test_profile_of_a_square_is_the_exact_one() -> None:

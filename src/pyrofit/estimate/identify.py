@@ -222,7 +222,9 @@ def _of_wrong_model(likelihood: Likelihood, x: FloatArray, tested: Goodness) -> 
     residuals = likelihood.residuals(x)
     optimum = Fit(linear.dot(residuals, residuals), x, residuals, posterior.jacobian)
     # Windows and sizes are those of these values; the test is that of the likeliest ones.
-    shown = replace(_tested(likelihood, x, slopes, curves), p=tested.p)
+    shown = replace(_tested(likelihood, x, slopes, curves), p=tested.p, repeats=tested.repeats)
+    if shown.describes:  # the likeliest curve alone is far off
+        shown = tested
     return Identification(optimum, posterior, slopes, estimates, {}, shown)
 
 
