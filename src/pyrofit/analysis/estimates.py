@@ -8,13 +8,14 @@ import pandas as pd
 
 from pyrofit.config import Study
 from pyrofit.constants import QUANTILE
-from pyrofit.results.goodness import APPARENT, AS_DESCRIBED, MISFIT
+from pyrofit.results.goodness import APPARENT, AS_DESCRIBED, MISFIT, ONE_RATE
 from pyrofit.results.identification import Identified
 
 Grade = Literal[
     "determined",
     "determined as described",
     "weakly determined",
+    "rests on one heating rate",
     "apparent value",
     "at a limit",
     "undetermined",
@@ -23,6 +24,7 @@ GRADES: tuple[Grade, ...] = (
     "determined",
     AS_DESCRIBED,
     "weakly determined",
+    ONE_RATE,
     "apparent value",
     "at a limit",
     "undetermined",
@@ -105,6 +107,8 @@ class Estimated:
             return APPARENT
         if self.verdict == AS_DESCRIBED:
             return AS_DESCRIBED
+        if self.verdict == ONE_RATE:
+            return ONE_RATE
         return "determined" if self.verdict == "determined" else "weakly determined"
 
 

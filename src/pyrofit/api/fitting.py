@@ -41,7 +41,8 @@ from pyrofit.estimate.pose import of_diagnosis
 from pyrofit.estimate.pose_likelihood import pose_likelihood
 from pyrofit.experiments import kind_of
 from pyrofit.logs import Tell
-from pyrofit.show.goodness import goodness_sentences
+from pyrofit.results.goodness import ONE_RATE
+from pyrofit.show.goodness import goodness_sentences, of_one_rate
 from pyrofit.show.text import several
 from pyrofit.solver.arrays import FloatArray
 
@@ -180,6 +181,7 @@ def fit_likelihood(
     x = likelihood.values(found.optimum.x)
     values = problem.values(x)
     scored = series_compared(study, values, series)
+    rest = [e.name for e in found.estimates if e.verdict == ONE_RATE]
     own = in_units(study, {n: v for n, v in values.items() if n in study.parameters})
     made = Fit(
         study=study,
@@ -193,7 +195,10 @@ def fit_likelihood(
         freedom=found.posterior.freedom,
         history=ends_table(study, likelihood, ends),
         goodness=found.goodness,
-        verdict=tuple(goodness_sentences(study, _stage_of(task), "", found.goodness)),
+        verdict=(
+            *goodness_sentences(study, _stage_of(task), "", found.goodness),
+            *of_one_rate(rest),
+        ),
         weights=own_weights,
     )
     return replace(made, derived=derived_table(study, own, made.covariance))

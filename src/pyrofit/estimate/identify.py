@@ -15,12 +15,13 @@ from pyrofit.errors import DataError
 from pyrofit.estimate.bounded_least_squares import Fit
 from pyrofit.estimate.goodness import goodness_of_fit
 from pyrofit.estimate.likelihood import Likelihood, fit
+from pyrofit.estimate.one_rate import following_from_the_model
 from pyrofit.estimate.posterior import Posterior, interval, limit_of
 from pyrofit.estimate.profile import Interval, Profile, profile_of
 from pyrofit.estimate.uncertain_apparatus import moves
 from pyrofit.estimate.wrong_model import least_squares, moved_by_apparatus, sds_of_misfit
 from pyrofit.numerics import linear
-from pyrofit.results.goodness import APPARENT, AS_DESCRIBED, MISFIT, Goodness
+from pyrofit.results.goodness import APPARENT, AS_DESCRIBED, MISFIT, ONE_RATE, Goodness
 from pyrofit.solver.arrays import FloatArray
 
 DETERMINED = 0.20
@@ -81,11 +82,16 @@ class Estimate:
     tied: bool = False
     """Whether another parameter is at a limit, and would move this one out of its interval if it
     went beyond by `BEYOND`."""
+    one_rate: bool = False
+    """Whether it follows from the reaction that the model assumes, as tests at one heating rate are
+    fitted. So does one that leaves its interval if such a parameter moves by `BEYOND`."""
 
     @property
     def verdict(self) -> str:
         """Whether the data determine it, in words."""
         found = verdict(self.interval.width, self.bound, self.method != MISFIT)
+        if found in (SURE, WEAK) and self.one_rate:
+            return ONE_RATE
         if found == SURE and self.tied:
             return WEAK
         with_apparatus = math.hypot(self.interval.width, 2.0 * QUANTILE * self.apparatus)
@@ -261,6 +267,7 @@ def _around(
     moved = moves(likelihood, optimum.x)
     J = posterior.jacobian[: posterior.residuals.size]
     ends = _ends_to_pass(likelihood, optimum.x)
+    assumed = following_from_the_model(likelihood.problem, likelihood.prior.index)
     estimates = []
     profiles = {}
     for i, (name, x) in enumerate(zip(likelihood.problem.names, optimum.x.tolist(), strict=True)):
@@ -290,8 +297,15 @@ def _around(
         others = J[:, [k for k in ends if k != i]]
         away = BEYOND * linear.product(covariance, J[:, free].T, others) / dispersion
         tied = bool(np.any(np.abs(away[at]) > reach))
+        with_those = [free.index(k) for k in assumed if k in free]
+        moved_by = BEYOND * covariance[at, with_those] / np.diag(covariance)[with_those]
+        one_rate = i in assumed or bool(np.any(np.abs(moved_by) > reach))
+        bound = limit_of(x)
         estimates.append(
-            Estimate(name, x, sd, float(more[at]), most[at], noise, wide, method, limit_of(x), tied)
+            Estimate(
+                *(name, x, sd, float(more[at]), most[at], noise, wide),
+                *(method, bound, tied, one_rate),
+            )
         )
     return tuple(estimates), profiles, lowest
 

@@ -19,6 +19,8 @@ MISFIT = "misfit"
 """Method of an interval of a model that misses the tests."""
 AS_DESCRIBED: Literal["determined as described"] = "determined as described"
 """Verdict on a parameter that usual errors of the apparatus move too far to be determined."""
+ONE_RATE: Literal["rests on one heating rate"] = "rests on one heating rate"
+"""Verdict on a parameter that follows from the assumed reaction, where one rate is fitted."""
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,6 @@
 """Whether a model describes its tests, in sentences."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from pyrofit.analysis.differing_repeats import WAY_OUT, differs
 from pyrofit.config import Study
@@ -58,6 +58,17 @@ def goodness_sentences(study: Study, stage: str, fit: str, found: Goodness) -> l
         )
     said += list(repeats_that_differ(study, found))
     return said
+
+
+def of_one_rate(names: Sequence[str]) -> Iterator[str]:
+    """Say which parameters rest on one heating rate, and what tells them."""
+    if names:
+        follow = "follows" if len(names) == 1 else "follow"
+        yield (
+            f"The tests have one heating rate: {listed(names)} {follow} from the order of reaction "
+            "that the model assumes, and intervals take it as exact. Do not publish such a value."
+        )
+        yield f"To determine {listed(names)}, measure at three heating rates or more."
 
 
 def missed_most(study: Study, found: Goodness, most: int = MOST_NAMED) -> list[str]:

@@ -6,7 +6,7 @@ from typing import Any
 from pyrofit.analysis.estimates import Estimated
 from pyrofit.analysis.scores import Score, by_signal
 from pyrofit.config import Study
-from pyrofit.results.goodness import AS_DESCRIBED
+from pyrofit.results.goodness import AS_DESCRIBED, ONE_RATE
 from pyrofit.show.text import listed, span
 from pyrofit.show.units import difference, difference_unit
 
@@ -31,7 +31,8 @@ STAGES = {"kinetics": "kinetics", "imp": "inverse modelling"}
 def flag(estimate: Estimated) -> str:
     """Return the flag of a parameter that the data do not determine, empty for one they do."""
     graded = estimate.grade not in ("determined", AS_DESCRIBED, "at a limit")
-    words = [f"{estimate.grade} by the data"] if graded else []
+    by = "" if estimate.grade == ONE_RATE else " by the data"
+    words = [f"{estimate.grade}{by}"] if graded else []
     words += [f"estimate at its {estimate.bound} limit"] if estimate.bound else []
     return "; ".join(words)
 

@@ -139,9 +139,7 @@ def lower_network(
     takes its fall over depth and time into account, and 0 where there is none.
     """
     heats |= burning and material.oxidises and oxygen != 0.0
-    left_out = tuple(
-        name for name, used in zip(_HEATS, (heats, burning), strict=True) if not used
-    )
+    left_out = tuple(name for name, used in zip(_HEATS, (heats, burning), strict=True) if not used)
     plan = material.derived(("network", left_out), lambda m: _plan(m, left_out))
     rates = plan.kinetics.lowered(values, sets, _kinetics)
     solid = plan.yields.lowered(values, sets, partial(_solid, plan, len(material.components)))

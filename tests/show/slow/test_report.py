@@ -17,6 +17,7 @@ from pyrofit.errors import DataError
 from pyrofit.model.parameters import Parameter
 from pyrofit.results import identification
 from pyrofit.results.files import Results, read_csv, read_json, write_csv, write_json, write_text
+from pyrofit.results.goodness import ONE_RATE
 from pyrofit.results.step import write_options
 from pyrofit.show.facts import Facts, facts_of
 from pyrofit.show.report import write_report
@@ -574,6 +575,19 @@ def test_share_of_0_is_told_as_such(tmp_path: Path) -> None:
     said = list(next_steps(study, replace(facts, estimates=estimates)))
     assert said[0].startswith("cp: the data show a share of 0")
     assert not any("no material" in one or "Widen" in one for one in said)
+
+
+def test_energy_of_one_heating_rate_is_not_to_be_published(tmp_path: Path) -> None:
+    study, results = fake(tmp_path)
+    facts = facts_in(study, results)
+    estimates = [
+        replace(e, verdict=ONE_RATE, bound="") if e.name == "cp" else e for e in facts.estimates
+    ]
+    _, publish, then = summary(study, replace(facts, estimates=estimates))
+    (said,) = (text for text in publish.said if text.startswith("The tests have one heating rate"))
+    assert "cp follows from the order" in said
+    assert any("Rests on one heating rate: cp" in t for t in publish.said)
+    assert "To determine cp, measure at three heating rates or more." in then.said
 
 
 def test_water_that_the_model_lacks_is_the_first_next_step(tmp_path: Path) -> None:

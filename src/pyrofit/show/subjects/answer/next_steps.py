@@ -1,12 +1,14 @@
 """Next steps after a run, in sentences for the first screen."""
 
 from collections.abc import Iterator
+from itertools import islice
 
 from pyrofit.analysis.answer import one_each
 from pyrofit.config import Study
 from pyrofit.model.parameters import Parameter
+from pyrofit.results.goodness import ONE_RATE
 from pyrofit.show.facts import Facts
-from pyrofit.show.goodness import NEXT
+from pyrofit.show.goodness import NEXT, of_one_rate
 from pyrofit.show.names import STAGES, all_scored
 from pyrofit.show.subjects.answer.predicted import predictions_of, worse_predicted
 from pyrofit.show.text import listed
@@ -63,6 +65,7 @@ def next_steps(study: Study, facts: Facts) -> Iterator[str]:
     missed = [stage for stage, found in facts.goodness.items() if not found.describes]
     for stage in missed[1:] if facts.offers else missed:
         yield f"{STAGES[stage].capitalize()}: {_lower(NEXT[stage])} ({_COMMANDS[stage]})."
+    yield from islice(of_one_rate([e.name for e in ours if e.grade == ONE_RATE]), 1, None)
     loose = [e.name for e in ours if e.grade in ("weakly determined", "undetermined")]
     if loose and not missed:
         yield (

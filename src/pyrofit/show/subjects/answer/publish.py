@@ -1,15 +1,17 @@
 """Which values can be published, in sentences for the first screen."""
 
 from collections.abc import Iterator
+from itertools import islice
 
 from pyrofit.analysis.answer import estimated_twice, one_each
 from pyrofit.analysis.estimates import Estimated
 from pyrofit.config import Study
 from pyrofit.config.check.oxidised import oxidised
-from pyrofit.results.goodness import AS_DESCRIBED
+from pyrofit.results.goodness import AS_DESCRIBED, ONE_RATE
 from pyrofit.results.kinetics import FITTED
 from pyrofit.show.apparatus import usual_errors
 from pyrofit.show.facts import Facts
+from pyrofit.show.goodness import of_one_rate
 from pyrofit.show.names import STAGES, named_estimate
 from pyrofit.show.subjects.answer.next_steps import is_physical
 from pyrofit.show.text import listed, number, several
@@ -25,6 +27,7 @@ def publishable(study: Study, facts: Facts) -> Iterator[str]:
     yield from _at_limits([e for e in ours if e.bound])
     yield _by_verdict(study, ours)
     yield from _by_description(ours)
+    yield from islice(of_one_rate([e.name for e in ours if e.grade == ONE_RATE]), 1)
     yield from _far_from_known(facts)
     yield from _kinetics_of_imp(study)
     yield from _assumed(facts)
