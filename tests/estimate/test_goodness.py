@@ -9,8 +9,11 @@ import numpy as np
 import pytest
 
 import pyrofit as pf
+from pyrofit.api.measurements import read_measured
 from pyrofit.cost import Target
 from pyrofit.estimate.goodness import differing, missed, moving_mean, scatter
+from pyrofit.estimate.pose import of_diagnosis
+from pyrofit.estimate.pose_likelihood import pose_likelihood
 from pyrofit.experiments import KINDS
 from pyrofit.new_study.write import init
 from pyrofit.results.goodness import Goodness, Miss, SignalGoodness
@@ -190,3 +193,23 @@ def test_repeats_described_differently_are_compared_less_that_difference(describ
     likelihood: Any = SimpleNamespace(problem=problem, split=lambda whole: np.split(whole, 3))
     curves = np.concatenate(simulated if described else simulated[:1] * 3)
     assert len(list(differing(likelihood, curves))) == (0 if described else 1)
+
+
+@pytest.mark.solver
+def test_noise_of_a_fit_follows_the_curve_of_least_squares_as_in_a_run(tmp_path: Path) -> None:
+    """The likeliest curve may be far from the data, where lasting errors allow it."""
+    at = np.linspace(400.0, 800.0, 201)
+    humps = [1e5 * np.exp(-0.5 * ((at - peak) / 25.0) ** 2) for peak in (560.0, 640.0)]
+    noise = 200.0 * np.random.default_rng(0).standard_normal(at.size)
+    rows = np.column_stack([at - 400.0, at, sum(humps) + noise])
+    file = tmp_path / "m_MCC_N2_60K_1.csv"
+    head = "Time (s),Temperature (K),HRR (W/kg)"
+    np.savetxt(file, rows, "%.6f", ",", header=head, comments="")
+    study = pf.read_study(init("m", {"mcc": [file]}, tmp_path)[0])
+    fit = pf.fit(study, profiles=False)
+    assert fit.method.startswith("least squares")
+    values = {n: v * study.parameters[n].factor for n, v in fit.values.items()}
+    series = read_measured(study, [(file.stem, "specific_heat_release_rate")], None)
+    posed = pose_likelihood(study, of_diagnosis(study), series, {}, [values])
+    expected = np.median(posed.noise[0].lasting_sd)
+    assert fit.signals["lasting_sd"].to_numpy() == pytest.approx(expected, rel=1e-3)

@@ -39,6 +39,7 @@ from pyrofit.estimate.likelihood import Likelihood, descents
 from pyrofit.estimate.noise_of_curves import with_noise_of_curves
 from pyrofit.estimate.pose import of_diagnosis
 from pyrofit.estimate.pose_likelihood import pose_likelihood
+from pyrofit.estimate.wrong_model import least_squares
 from pyrofit.experiments import kind_of
 from pyrofit.logs import Tell
 from pyrofit.results.goodness import ONE_RATE
@@ -175,9 +176,11 @@ def fit_likelihood(
     ends = _ends(likelihood, starting_points(study, problem, starts), begin)
     best = ends[0]
     tell(f"chi-square {best.chi2:.1f} of {sum(likelihood.points)} points; intervals follow")
-    first = best.x
-    likelihood = weighted(with_noise_of_curves(unweighted, [first]), own_weights)
-    found = identify(likelihood, [first], profiles)
+    # As in a run, noise follows the curve of least squares. The likeliest curve may be far from the
+    # data where lasting errors allow it.
+    _, nearest = least_squares(likelihood, best.x)
+    likelihood = weighted(with_noise_of_curves(unweighted, [nearest]), own_weights)
+    found = identify(likelihood, [best.x, nearest], profiles)
     x = likelihood.values(found.optimum.x)
     values = problem.values(x)
     scored = series_compared(study, values, series)
