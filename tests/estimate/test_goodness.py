@@ -158,10 +158,18 @@ def test_signals_that_are_far_off_count_as_missed_beside_one_that_noise_excludes
 
 def test_misfit_to_both_sides_is_told_by_its_rms() -> None:
     study = pf.read_study(Path(__file__).parents[2] / "config" / "smoke.yaml")
-    for mean, words in ((1e-5, "4 g/(m² s) off (rms), to both sides,"), (2e-3, "2 g/(m² s) too h")):
-        misses = (Miss(0.0, 99.0, None, None, mean),)
+    for mean, rms, words in (
+        (1e-5, 4e-3, "4 g/(m² s) off (rms), to both sides,"),
+        (-1.5e-3, 4e-3, "4 g/(m² s) off (rms), to both sides,"),  # most of it cancels
+        (2.5e-3, 4e-3, "2.5 g/(m² s) too high"),
+        (1.5e-3, 1.6e-3, "1.5 g/(m² s) too high"),
+    ):
+        misses = (Miss(0.0, 99.0, None, None, mean, rms),)
         signal = SignalGoodness("slab_25", "mlr", 1e-6, 4e-3, 0.1, 1e-4, 1.0, 1e-3, misses)
-        assert f"simulated {words}" in where_missed(study, signal)
+        said = where_missed(study, signal)
+        assert f"simulated {words}" in said
+        # A window of the noise may be elsewhere than the largest misfit.
+        assert ("of the whole record is 4 g/(m² s)" in said) == (rms < 4e-3)
 
 
 @pytest.mark.parametrize("described", [True, False])

@@ -248,7 +248,7 @@ def _identification(study: Study, results: Results) -> None:
     channel = noise_of("slab_25", "mlr", points=20, sd=2e-4, chi2=72.0)
     found = StageNoise(channels=[channel], chi2=72.0, freedom=18.0, dispersion=4.0)
     write_noise(results, "imp", found)
-    window = Miss(20.0, 60.0, None, None, -3e-4)
+    window = Miss(20.0, 60.0, None, None, -3e-4, 4e-4)
     missed = SignalGoodness("slab_25", "mlr", 0.002, 4e-4, 8e-3, 2e-4, 1.0, 4e-4, (window,))
     goodness.write(results, "imp", Goodness(0.002, (missed,)))
     time = np.arange(5.0, 105.0, 5.0)

@@ -223,5 +223,6 @@ def _miss(
 ) -> Miss:
     ends = (None, None) if temperature is None else (temperature[first], temperature[last])
     low, high = (None if T is None else float(T) for T in ends)
-    mean = float(np.mean(difference[first : last + 1]))
-    return Miss(float(time[first]), float(time[last]), low, high, mean)
+    inside = difference[first : last + 1]
+    mean, rms = float(np.mean(inside)), root_mean_square(inside)
+    return Miss(float(time[first]), float(time[last]), low, high, mean, rms)

@@ -35,6 +35,8 @@ class Miss:
         Measured temperatures there, where the signal is recorded against them.
     mean
         Mean of simulated less measured values, SI unit.
+    rms
+        Their root mean square.
     """
 
     start_s: float
@@ -42,6 +44,7 @@ class Miss:
     start_K: float | None
     end_K: float | None
     mean: float
+    rms: float = 0.0
 
 
 @dataclass(frozen=True)

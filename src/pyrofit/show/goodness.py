@@ -10,7 +10,7 @@ from pyrofit.show.units import celsius, difference, difference_unit
 
 MOST_NAMED = 3
 """Signals and repeats that are named at most."""
-ONE_SIDE = 0.1
+ONE_SIDE = 0.5
 """Mean of a misfit over its rms, from which it is told as one to one side."""
 OTHER_TOTAL = 0.1
 """Relative difference of integrals that is told."""
@@ -85,8 +85,13 @@ def where_missed(study: Study, s: SignalGoodness) -> str:
     quantity = experiment.quantity(s.signal)
     unit = difference_unit(quantity)
     rms = float(difference(quantity, s.rms))
-    windows = [_window(w, float(difference(quantity, w.mean)), rms, unit) for w in s.misses]
+    windows = [
+        _window(w, *(float(difference(quantity, size)) for size in (w.mean, w.rms)), unit)
+        for w in s.misses
+    ]
     said = f"{s.experiment}, {experiment.words(s.signal)}: simulated {listed(windows)}."
+    if s.rms > max(max(abs(w.mean), w.rms) for w in s.misses):
+        said += f" The rms misfit of the whole record is {_size(rms, unit)}."
     if s.total is not None and abs(s.total - 1.0) > OTHER_TOTAL:
         said += f" Its simulated integral is {100.0 * s.total:.0f} % of the measured one."
     return said
@@ -96,7 +101,7 @@ def _window(w: Miss, mean: float, rms: float, unit: str) -> str:
     side = "too high" if mean > 0.0 else "too low"
     if abs(mean) < ONE_SIDE * rms:
         mean, side = rms, "off (rms), to both sides,"
-    size = _two_digits(abs(mean)) + ("" if unit in ("–", "-") else f" {unit}")
+    size = _size(abs(mean), unit)
     if w.start_K is None or w.end_K is None:
         return f"{size} {side} from {w.start_s:.0f} to {w.end_s:.0f} s"
     low, high = celsius(w.start_K), celsius(w.end_K)
@@ -115,10 +120,11 @@ def repeats_that_differ(study: Study, found: Goodness) -> Iterator[str]:
         yield f"{several(more, 'further record')} {said}."
 
 
-def _two_digits(value: float) -> str:
-    """Write a number to two digits, without an exponent where it is large."""
+def _size(value: float, unit: str) -> str:
+    """Write a number with its unit to two digits, without an exponent where it is large."""
     text = f"{value:.2g}"
-    return f"{float(text):.0f}" if value >= 10.0 else text
+    text = f"{float(text):.0f}" if value >= 10.0 else text
+    return text if unit in ("–", "-") else f"{text} {unit}"
 
 
 def _below(p: float) -> str:
