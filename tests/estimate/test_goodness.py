@@ -151,9 +151,22 @@ def test_signals_that_are_far_off_count_as_missed_beside_one_that_noise_excludes
     of_noise = SignalGoodness("slab", "mass", 1e-3, 0.1, 10.0, 0.01, 1.0, 0.1, ())
     far = SignalGoodness("slab", "back", 1.0, 5.0, 10.0, 0.1, 1.0, 5.0, ())
     said = verdict_words("", Goodness(1e-3, (of_noise, far, replace(far, averaged=0.1))))
-    assert "it misses 2 of 3 signals by more than noise does" in said
+    assert "it misses 2 of 3 signals (back of slab and mass of slab) by more than noise" in said
+    assert "at most 50 % of a signal's range, that of back of slab." in said
     assert "or, for long, by more than a tenth of its range" in said
     assert "tenth" not in verdict_words("", Goodness(1e-3, (of_noise,)))
+
+
+def test_signals_that_are_missed_are_named_the_worst_first() -> None:
+    signals = tuple(
+        SignalGoodness(f"slab_{k}", "mass", p, 0.1 * k, 10.0, 0.01, 1.0, 0.1, ())
+        for k, p in enumerate((1.0, 1e-3, 1e-3, 1e-3, 1e-3))
+    )
+    said = verdict_words("", Goodness(1e-3, signals))
+    assert "4 of 5 signals (mass of slab_4, mass of slab_3, mass of slab_2 and 1 more)" in said
+    # None alone is excluded, but all together.
+    together = tuple(replace(s, p=0.02 + 0.01 * k) for k, s in enumerate(signals))
+    assert "1 of 5 signals (mass of slab_0) by" in verdict_words("", Goodness(1e-3, together))
 
 
 def test_misfit_to_both_sides_is_told_by_its_rms() -> None:

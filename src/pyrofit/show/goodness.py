@@ -26,25 +26,44 @@ def verdict_words(fit: str, found: Goodness) -> str:
     model = f"The model of the {fit}" if fit else "The model"
     if found.describes:
         return f"{model} describes the tests: its misfit is within their noise (p = {found.p:.2g})."
-    worst = max(found.signals, key=lambda s: s.rms / s.range if s.range else 0.0)
-    share = 100.0 * worst.rms / worst.range if worst.range else 0.0
-    signals = several(len(found.signals), "signal")
     if found.p >= LEVEL:
-        far_off = sum(s.far_off for s in found.signals)
+        far_off = [s for s in found.signals if s.far_off]
         return (
-            f"{model} does not describe the tests: it misses {far_off} of {signals} for long by "
-            "more than a tenth of its range. Lasting errors of the tests are as large, so the test "
-            "of the noise cannot tell."
+            f"{model} does not describe the tests: it misses {_of_all(far_off, found)} for long "
+            "by more than a tenth of its range. Lasting errors of the tests are as large, so the "
+            "test of the noise cannot tell."
         )
-    missed = sum(s.p < LEVEL or s.far_off for s in found.signals)
+    # Noise may exclude all signals together, and none alone.
+    likely = min(found.signals, key=lambda s: s.p)
+    missed = [s for s in found.signals if s.p < LEVEL or s.far_off] or [likely]
     beside = " or, for long, by more than a tenth of its range" * any(
         s.p >= LEVEL and s.far_off for s in found.signals
     )
+    worst = max(found.signals, key=_share)
+    of = "" if len(found.signals) == 1 else f", that of {_named([worst])}"
     return (
-        f"{model} does not describe the tests: it misses {missed or 1} of {signals} by more than "
-        f"noise does (p {_below(found.p)}){beside}. "
-        f"The rms misfit is at most {share:.2g} % of a signal's range."
+        f"{model} does not describe the tests: it misses {_of_all(missed, found)} by more than "
+        f"noise does (p {_below(found.p)}){beside}. The rms misfit is "
+        f"at most {100.0 * _share(worst):.2g} % of a signal's range{of}."
     )
+
+
+def _share(s: SignalGoodness) -> float:
+    """Return the rms misfit of a signal over its range."""
+    return s.rms / s.range if s.range else 0.0
+
+
+def _of_all(missed: Sequence[SignalGoodness], found: Goodness) -> str:
+    """Say how many signals are missed, and which, unless all are."""
+    names = "" if len(missed) == len(found.signals) else f" ({_named(missed)})"
+    return f"{len(missed)} of {several(len(found.signals), 'signal')}{names}"
+
+
+def _named(signals: Sequence[SignalGoodness]) -> str:
+    """Name signals, the one of the largest misfit first."""
+    names = [f"{s.signal} of {s.experiment}" for s in sorted(signals, key=_share, reverse=True)]
+    more = len(names) - MOST_NAMED
+    return listed(names[:MOST_NAMED] + ([f"{more} more"] if more > 0 else []))
 
 
 def goodness_sentences(study: Study, stage: str, fit: str, found: Goodness) -> list[str]:
@@ -73,9 +92,7 @@ def of_one_rate(names: Sequence[str]) -> Iterator[str]:
 
 def missed_most(study: Study, found: Goodness, most: int = MOST_NAMED) -> list[str]:
     """Return where the signals are missed that are missed most, a sentence for each."""
-    missed = sorted(
-        (s for s in found.signals if s.misses), key=lambda s: s.rms / max(s.range, 1e-300)
-    )[::-1]
+    missed = sorted((s for s in found.signals if s.misses), key=_share)[::-1]
     return [where_missed(study, s) for s in missed[:most]]
 
 
