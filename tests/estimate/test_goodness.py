@@ -17,7 +17,7 @@ from pyrofit.estimate.pose_likelihood import pose_likelihood
 from pyrofit.experiments import KINDS
 from pyrofit.new_study.write import init
 from pyrofit.results.goodness import Goodness, Miss, SignalGoodness
-from pyrofit.show.goodness import verdict_words, where_missed
+from pyrofit.show.goodness import next_step, verdict_words, where_missed
 from pyrofit.solver.arrays import FloatArray
 
 R = 8.314462618
@@ -234,3 +234,30 @@ def test_noise_of_a_fit_follows_the_curve_of_least_squares_as_in_a_run(tmp_path:
     posed = pose_likelihood(study, of_diagnosis(study), series, {}, [values])
     expected = np.median(posed.noise[0].lasting_sd)
     assert fit.signals["lasting_sd"].to_numpy() == pytest.approx(expected, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("tests", "advice"),
+    [
+        ({"tga": (5.0, 20.0)}, "pyrofit run STUDY scheme"),
+        ({"tga": (5.0, 5.0)}, ""),
+        ({"mcc": (30.0, 60.0)}, ""),
+    ],
+)
+def test_a_scheme_is_advised_only_where_it_can_be_chosen(
+    tmp_path: Path, tests: dict[str, tuple[float, float]], advice: str
+) -> None:
+    ((kind, rates),) = tests.items()
+    files = []
+    for k, rate in enumerate(rates):
+        values = mass(rate, ONE, 1.0)[SHARE]
+        if kind == "mcc":
+            values = -2e7 * np.gradient(values, (T[SHARE] - T[0]) / rate * 60.0)
+        rows = np.column_stack([(T[SHARE] - T[0]) / rate * 60.0, T[SHARE], values])
+        files.append(tmp_path / f"t_N2_{rate:g}K_{k}.csv")
+        head = f"Time (s),Temperature (K),{'Mass (-)' if kind == 'tga' else 'HRR (W/kg)'}"
+        np.savetxt(files[-1], rows, "%.6f", ",", header=head, comments="")
+    study = pf.read_study(init("x", {kind: files}, tmp_path)[0])
+    said, command = next_step(study, "imp")
+    assert command == advice
+    assert ("Measure" in said) == (not advice)

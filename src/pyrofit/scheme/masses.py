@@ -9,6 +9,8 @@ from pyrofit.model.heated import HeatedExperiment
 from pyrofit.solver.outputs import MASS_FRACTION
 
 Pairs = tuple[tuple[str, str], ...]
+FEWEST_RATES = 2
+"""Heating rates without which no scheme can be chosen."""
 ENOUGH_RATES = 3
 """Heating rates with which a fit without one of them still has two."""
 
@@ -51,6 +53,11 @@ def masses_of(study: Study) -> Masses:
     used = parameters_of_heated(study.material)
     estimate = tuple(name for name in study.imp.estimate if name in used)
     return Masses(fitted, _without(others, fitted), estimate, "imp.costs")
+
+
+def fitted_rates(study: Study) -> set[float]:
+    """Return the heating rates of the masses that schemes are fitted to [K/min]."""
+    return {_rate(study, name) for name, _ in masses_of(study).fitted}
 
 
 def _masses(study: Study, pairs: Iterable[tuple[str, str]]) -> Pairs:

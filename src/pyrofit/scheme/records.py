@@ -10,10 +10,8 @@ from pyrofit.errors import StudyError
 from pyrofit.estimate.targets import Measurements, target_for
 from pyrofit.experiments.heated.simulate import programme
 from pyrofit.model.heated import HeatedExperiment
-from pyrofit.scheme.masses import masses_of
+from pyrofit.scheme.masses import FEWEST_RATES, masses_of
 from pyrofit.solver.arrays import FloatArray
-
-FEWEST_RATES = 2
 
 
 @dataclass(frozen=True, eq=False)

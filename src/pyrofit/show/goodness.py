@@ -4,7 +4,9 @@ from collections.abc import Iterator, Sequence
 
 from pyrofit.analysis.differing_repeats import WAY_OUT, differs
 from pyrofit.config import Study
+from pyrofit.experiments import kind_of
 from pyrofit.results.goodness import LEVEL, Goodness, Miss, SignalGoodness
+from pyrofit.scheme.masses import FEWEST_RATES, fitted_rates
 from pyrofit.show.text import listed, several
 from pyrofit.show.units import celsius, difference, difference_unit
 
@@ -14,11 +16,22 @@ ONE_SIDE = 0.5
 """Mean of a misfit over its rms, from which it is told as one to one side."""
 OTHER_TOTAL = 0.1
 """Relative difference of integrals that is told."""
-NEXT = {
-    "kinetics": "More reactions may describe them: run the step scheme",
-    "imp": "The step diagnose searches the missing effect",
-}
-"""Next step after a misfit, by stage."""
+
+
+def next_step(study: Study, stage: str) -> tuple[str, str]:
+    """Return the step that a misfit of a stage leads to, and its command; empty if it is a test.
+
+    Where only heated samples are fitted, it is that of the kinetics.
+    """
+    kinds = {kind_of(study.experiments[t.experiment]).stage for t in study.imp.channels}
+    if stage == "imp" and kinds != {"kinetics"}:
+        return "The step diagnose searches the missing effect", "pyrofit run STUDY diagnose"
+    if len(fitted_rates(study)) < FEWEST_RATES:
+        return (
+            "Measure the mass at three heating rates or more, which tell the missing reactions",
+            "",
+        )
+    return "More reactions may describe them: run the step scheme", "pyrofit run STUDY scheme"
 
 
 def verdict_words(fit: str, found: Goodness) -> str:
@@ -73,7 +86,7 @@ def goodness_sentences(study: Study, stage: str, fit: str, found: Goodness) -> l
         said += missed_most(study, found)
         said.append(
             "Its values are apparent values of this model, and their intervals include the "
-            f"misfit. {NEXT[stage]}."
+            f"misfit. {next_step(study, stage)[0]}."
         )
     said += list(repeats_that_differ(study, found))
     return said
@@ -103,7 +116,7 @@ def where_missed(study: Study, s: SignalGoodness) -> str:
     unit = difference_unit(quantity)
     rms = float(difference(quantity, s.rms))
     windows = [
-        _window(w, *(float(difference(quantity, size)) for size in (w.mean, w.rms)), unit)
+        _window(w, float(difference(quantity, w.mean)), float(difference(quantity, w.rms)), unit)
         for w in s.misses
     ]
     said = f"{s.experiment}, {experiment.words(s.signal)}: simulated {listed(windows)}."

@@ -8,13 +8,10 @@ from pyrofit.config import Study
 from pyrofit.model.parameters import Parameter
 from pyrofit.results.goodness import ONE_RATE
 from pyrofit.show.facts import Facts
-from pyrofit.show.goodness import NEXT, of_one_rate
+from pyrofit.show.goodness import next_step, of_one_rate
 from pyrofit.show.names import STAGES, all_scored
 from pyrofit.show.subjects.answer.predicted import predictions_of, worse_predicted
 from pyrofit.show.text import listed
-
-_COMMANDS = {"kinetics": "pyrofit run STUDY scheme", "imp": "pyrofit run STUDY diagnose"}
-"""Commands of the steps that follow a misfit, by stage."""
 
 
 def is_physical(parameter: Parameter, bound: str) -> bool:
@@ -64,7 +61,9 @@ def next_steps(study: Study, facts: Facts) -> Iterator[str]:
     yield from facts.offers
     missed = [stage for stage, found in facts.goodness.items() if not found.describes]
     for stage in missed[1:] if facts.offers else missed:
-        yield f"{STAGES[stage].capitalize()}: {_lower(NEXT[stage])} ({_COMMANDS[stage]})."
+        said, command = next_step(study, stage)
+        by = f" ({command})" if command else ""
+        yield f"{STAGES[stage].capitalize()}: {_lower(said)}{by}."
     yield from islice(of_one_rate([e.name for e in ours if e.grade == ONE_RATE]), 1, None)
     loose = [e.name for e in ours if e.grade in ("weakly determined", "undetermined")]
     if loose and not missed:
