@@ -147,13 +147,25 @@ def test_a_signal_missed_for_long_by_a_tenth_of_its_range_is_told_whatever_the_n
         assert ("for long by more than a tenth" in verdict_words("", found)) != passes
 
 
+def test_total_heat_of_a_sample_that_is_missed_is_told_whatever_the_noise() -> None:
+    near = SignalGoodness("mcc", "hrr", 0.5, 0.03, 1.0, 0.01, 1.0, 0.03, (), total=0.92)
+    for signal, described in (
+        (replace(near, of_sample=True), True),
+        (replace(near, of_sample=True, total=0.85), False),
+        (replace(near, total=0.85), True),  # a slab: its burning is not all that it holds
+    ):
+        found = Goodness(0.5, (signal,))
+        assert found.describes == described
+        assert ("tenth of its range or of its total heat" in verdict_words("", found)) != described
+
+
 def test_signals_that_are_far_off_count_as_missed_beside_one_that_noise_excludes() -> None:
     of_noise = SignalGoodness("slab", "mass", 1e-3, 0.1, 10.0, 0.01, 1.0, 0.1, ())
     far = SignalGoodness("slab", "back", 1.0, 5.0, 10.0, 0.1, 1.0, 5.0, ())
     said = verdict_words("", Goodness(1e-3, (of_noise, far, replace(far, averaged=0.1))))
     assert "it misses 2 of 3 signals (back of slab and mass of slab) by more than noise" in said
     assert "at most 50 % of a signal's range, that of back of slab." in said
-    assert "or, for long, by more than a tenth of its range" in said
+    assert "or for long by more than a tenth of its range" in said
     assert "tenth" not in verdict_words("", Goodness(1e-3, (of_noise,)))
 
 
@@ -229,6 +241,11 @@ def test_noise_of_a_fit_follows_the_curve_of_least_squares_as_in_a_run(tmp_path:
     study = pf.read_study(init("m", {"mcc": [file]}, tmp_path)[0])
     fit = pf.fit(study, profiles=False)
     assert fit.method.startswith("least squares")
+    assert fit.goodness is not None
+    total = fit.goodness.signals[0].total
+    curve = fit.curves
+    over = [float(np.trapezoid(curve[name], curve["time_s"])) for name in ("simulated", "measured")]
+    assert total == pytest.approx(over[0] / over[1], rel=0.01)
     values = {n: v * study.parameters[n].factor for n, v in fit.values.items()}
     series = read_measured(study, [(file.stem, "specific_heat_release_rate")], None)
     posed = pose_likelihood(study, of_diagnosis(study), series, {}, [values])

@@ -61,7 +61,7 @@ class Posed:
     def runs(self) -> Any:
         point = SimpleNamespace(
             quantity=lambda signal: SimpleNamespace(
-                sampling="point", name="mlr", against_temperature=False
+                sampling="point", name="mlr", against_temperature=False, rests_on=()
             )
         )
         return {"slab": SimpleNamespace(experiment=point)}

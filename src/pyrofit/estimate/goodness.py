@@ -17,6 +17,7 @@ from dataclasses import replace
 import numpy as np
 from scipy.special import chdtrc, fdtrc
 
+from pyrofit.cost import Target
 from pyrofit.cost.distances import root_mean_square
 from pyrofit.estimate import lasting_misfit
 from pyrofit.estimate.between_repeats import groups_of_repeats
@@ -27,6 +28,7 @@ from pyrofit.estimate.projection import spanned_by
 from pyrofit.estimate.repeats_agree import differences, is_held, tolerance_of
 from pyrofit.model.experiment import Experiment
 from pyrofit.numerics import linear
+from pyrofit.quantities.base import Quantity
 from pyrofit.quantities.integral import integral
 from pyrofit.results.goodness import LEVEL, Goodness, Miss, RepeatDiffers, SignalGoodness
 from pyrofit.solver.arrays import FloatArray
@@ -148,6 +150,7 @@ def _signal(
     noise, target = likelihood.noise[channel], likelihood.problem.cost.terms[channel][1].target
     difference = likelihood.split(curves)[channel] - target.value
     temperature = likelihood.problem.temperature_K(channel)
+    quantity = likelihood.problem.runs[experiment].experiment.quantity(signal)
     averaged = moving_mean(difference, LONG)
     found = SignalGoodness(
         experiment=experiment,
@@ -158,7 +161,8 @@ def _signal(
         points_sd=float(np.median(noise.sd)),
         scatter=scatter_of,
         averaged=root_mean_square(averaged),
-        total=_total(likelihood, channel, difference),
+        total=_total(quantity, target, difference),
+        of_sample=quantity.against_temperature,
         misses=(),
     )
     if p >= LEVEL and not found.far_off:
@@ -181,12 +185,10 @@ def moving_mean(values: FloatArray, share: float) -> FloatArray:
     return np.asarray((total[high] - total[low]) / (high - low))
 
 
-def _total(likelihood: Likelihood, channel: int, difference: FloatArray) -> float | None:
+def _total(quantity: Quantity, target: Target, difference: FloatArray) -> float | None:
     """Return the simulated over the measured integral of a rate."""
-    experiment, signal, _ = likelihood.problem.picks[channel]
-    if likelihood.problem.runs[experiment].experiment.quantity(signal).sampling != "bin mean":
+    if quantity.sampling != "bin mean" and "heat_of_combustion_J_kg" not in quantity.rests_on:
         return None
-    target = likelihood.problem.cost.terms[channel][1].target
     whole = integral(target.time_s, target.value)
     return 1.0 + integral(target.time_s, difference) / whole if whole > 0.0 else None
 

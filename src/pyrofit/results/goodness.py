@@ -63,6 +63,8 @@ class SignalGoodness:
         Median standard deviation of the noise of its points, SI unit.
     total
         Integral of the simulated rate over that of the measured one; None where it is no rate.
+    of_sample
+        Whether that is the total heat of a sample, a robust number: a calorimeter burns all gas.
     scatter
         Scatter from point to point over that of the noise, 1 at least.
     averaged
@@ -81,11 +83,17 @@ class SignalGoodness:
     averaged: float
     misses: tuple[Miss, ...]
     total: float | None = None
+    of_sample: bool = False
+
+    @property
+    def heat_off(self) -> bool:
+        """Whether the total heat of the sample is missed by more than `FAR_OFF` of it."""
+        return self.of_sample and self.total is not None and abs(self.total - 1.0) > FAR_OFF
 
     @property
     def far_off(self) -> bool:
-        """Whether it is missed for long by more than `FAR_OFF` of its range."""
-        return self.averaged > FAR_OFF * self.range
+        """Whether it is missed for long by more than `FAR_OFF` of its range, or its heat is."""
+        return self.averaged > FAR_OFF * self.range or self.heat_off
 
 
 @dataclass(frozen=True)

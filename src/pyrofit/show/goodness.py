@@ -42,16 +42,15 @@ def verdict_words(fit: str, found: Goodness) -> str:
     if found.p >= LEVEL:
         far_off = [s for s in found.signals if s.far_off]
         return (
-            f"{model} does not describe the tests: it misses {_of_all(far_off, found)} for long "
-            "by more than a tenth of its range. Lasting errors of the tests are as large, so the "
+            f"{model} does not describe the tests: it misses {_of_all(far_off, found)} "
+            f"{_tenth(far_off)}. Lasting errors of the tests are as large, so the "
             "test of the noise cannot tell."
         )
     # Noise may exclude all signals together, and none alone.
     likely = min(found.signals, key=lambda s: s.p)
     missed = [s for s in found.signals if s.p < LEVEL or s.far_off] or [likely]
-    beside = " or, for long, by more than a tenth of its range" * any(
-        s.p >= LEVEL and s.far_off for s in found.signals
-    )
+    excused = [s for s in found.signals if s.p >= LEVEL and s.far_off]
+    beside = f" or {_tenth(excused)}" if excused else ""
     worst = max(found.signals, key=_share)
     of = "" if len(found.signals) == 1 else f", that of {_named([worst])}"
     return (
@@ -64,6 +63,12 @@ def verdict_words(fit: str, found: Goodness) -> str:
 def _share(s: SignalGoodness) -> float:
     """Return the rms misfit of a signal over its range."""
     return s.rms / s.range if s.range else 0.0
+
+
+def _tenth(far_off: Sequence[SignalGoodness]) -> str:
+    """Say by how much signals are missed that noise may excuse."""
+    heat = " or of its total heat" if any(s.heat_off for s in far_off) else ""
+    return f"for long by more than a tenth of its range{heat}"
 
 
 def _of_all(missed: Sequence[SignalGoodness], found: Goodness) -> str:
