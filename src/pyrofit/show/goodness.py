@@ -79,7 +79,8 @@ def _of_all(missed: Sequence[SignalGoodness], found: Goodness) -> str:
 
 def _named(signals: Sequence[SignalGoodness]) -> str:
     """Name signals, the one of the largest misfit first."""
-    names = [f"{s.signal} of {s.experiment}" for s in sorted(signals, key=_share, reverse=True)]
+    ordered = sorted(signals, key=_share, reverse=True)
+    names = [f"{s.signal.replace('_', ' ')} of {s.experiment}" for s in ordered]
     more = len(names) - MOST_NAMED
     return listed(names[:MOST_NAMED] + ([f"{more} more"] if more > 0 else []))
 
