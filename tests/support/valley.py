@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from pyrofit.estimate.derivatives import PARABOLA
 from pyrofit.estimate.problem import FAILED_COST, Evaluation
 from pyrofit.solver.arrays import FloatArray, Status
 
@@ -19,6 +20,7 @@ class Valley:
     fails: Callable[[FloatArray], bool] = lambda x: False
     asked: list[FloatArray] = field(default_factory=list)
 
+    difference = PARABOLA
     names = ("a", "b")
     picks = (("run", "signal", np.arange(2)),)
 
