@@ -45,6 +45,11 @@ def test_the_include_file_has_no_head_and_names_every_parameter(folder: Path) ->
     text.encode("ascii")
 
 
+def test_the_error_of_the_default_grid_is_that_of_the_measured_material(folder: Path) -> None:
+    text = (folder / "material.fds").read_text()
+    assert "for PMMA of 6 mm" in text[text.index("34 % at 60") :]
+
+
 def test_an_unknown_set_is_refused_with_the_way_out(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

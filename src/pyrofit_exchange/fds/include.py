@@ -20,7 +20,7 @@ from pyrofit_exchange.sets import ParameterSet
 
 GAS = "FUEL_GAS"
 FACTOR = 0.5
-"""CELL_SIZE_FACTOR of a fire: 0.2 % at 25 kW/m2 and 0.8 % at 60, FDS's default 6 % and 34 %."""
+"""CELL_SIZE_FACTOR of a fire. PMMA of 6 mm: 0.2 % at 25 kW/m2, 0.8 % at 60; default 6 and 34 %."""
 OF_GAS = ("C", 5.0), ("H", 8.0), ("O", 2.0), ("SOOT_YIELD", 0.02)
 USUAL_HEAT_KJ_KG = 25000.0
 
@@ -108,8 +108,8 @@ def _surface(
         layers = [virgin(material, values)]
     comment = (
         "Thickness and backing are those of your fire, not of the tests.",
-        "STRETCH_FACTOR and CELL_SIZE_FACTOR belong to the parameters: FDS's default grid is 6 %",
-        "off at 25 kW/m2 and 34 % at 60.",
+        "STRETCH_FACTOR and CELL_SIZE_FACTOR belong to the parameters. FDS's default grid is 6 %",
+        "off at 25 kW/m2 and 34 % at 60 for PMMA of 6 mm (docs/fds.md); others were not measured.",
         "BACKING='EXPOSED' sends half of the gas of a layer out of its back (LAYER_DIVIDE).",
     )
     items = {
