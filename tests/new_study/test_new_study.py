@@ -233,6 +233,15 @@ def test_charring_solid_gets_parallel_reactions_char_and_its_water(
         assert lower < true < upper
 
 
+@pytest.mark.parametrize("water", [0.11, 0.18, 0.3, 0.4])
+def test_limits_of_water_hold_the_measured_loss_with_room(water: float, folder: Path) -> None:
+    char(water, residue=0.15)
+    study = made("--tga", "tga_10K.csv")
+    lower, upper = study.parameters["w_w"].bounds_si
+    assert lower < 0.8 * water
+    assert upper > 1.15 * water
+
+
 @pytest.mark.parametrize("given", [0.0, 0.1])
 def test_water_of_slabs_is_asked_once_where_the_tga_shows_none(given: float, folder: Path) -> None:
     char(0.0)

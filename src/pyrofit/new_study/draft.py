@@ -146,8 +146,22 @@ class KineticsDraft:
 
     @property
     def moistures(self) -> tuple[float, float]:
-        """Limits of the mass fraction of water: half to one and a half times the loss."""
-        return round(0.5 * self.moisture, 3), min(round(1.5 * self.moisture, 3), 0.12)
+        """Limits of the mass fraction of water: half to one and a half times the loss.
+
+        Above 0.12 the upper one is 1.2 times the loss, at most 0.95.
+        """
+        upper = min(1.5 * self.moisture, max(0.12, 1.2 * self.moisture))
+        return round(0.5 * self.moisture, 3), min(round(upper, 3), 0.95)
+
+    @property
+    def shares(self) -> list[tuple[str, tuple[float, float]]]:
+        """Limits of the mass fractions of the early and late component, by name.
+
+        With the water the upper ones add up to one at most.
+        """
+        dry = min((1.0 - self.moistures[1]) / 0.88, 1.0) if self.moist else 1.0
+        upper = {"early": math.floor(500.0 * dry) / 1e3, "late": math.floor(350.0 * dry) / 1e3}
+        return [(name, (min(0.05, 0.5 * most), most)) for name, most in upper.items()]
 
     @property
     def yields(self) -> tuple[float, float]:
