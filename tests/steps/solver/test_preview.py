@@ -29,6 +29,7 @@ from pyrofit.steps.preview.reach import (
     OF_RANGE,
     RecordedCases,
     case_of,
+    peak_off,
     reached,
     simulate_all,
 )
@@ -253,6 +254,36 @@ def test_temperatures_in_the_wrong_unit_are_named_first_with_their_window() -> N
     words = list(sentences_on(study, found))
     assert words[0].startswith("slab_25, back temperature: the data lie below all sets from ")
     assert "the temperatures are in °C, and were read as K" in words[1]
+
+
+def test_unit_of_a_tiny_record_is_named_though_the_model_misses_another_one() -> None:
+    study, frames = smoke()
+    rate, back = frames["slab_25", "mlr"], frames["slab_25", "back_temperature"]
+    rise = back["back_temperature_K"] - 300.0
+    wrong = {
+        **frames,
+        ("slab_25", "mlr"): rate.assign(mlr_kg_m2_s=1e-3 * rate["mlr_kg_m2_s"]),
+        ("slab_25", "back_temperature"): back.assign(back_temperature_K=300.0 + 2.0 * rise),
+    }
+    (cause,) = preview(study, wrong, 100).found.causes
+    assert cause.words.startswith("the mass loss rate of slab_25 is 1000 times too small")
+
+
+def test_mass_that_ends_below_zero_tells_the_zero_of_the_balance() -> None:
+    study, frames = smoke()
+    key = "tga_5K", "mass_fraction"
+    low = frames[key].assign(mass_fraction=1.15 * frames[key]["mass_fraction"] - 0.15)
+    first, *_ = preview(study, {**frames, key: low}, 100).found.causes
+    assert first.words == (
+        "the zero of the balance of tga_5K is off: the mass fraction ends at "
+        f"{low['mass_fraction'].iloc[-1]:.2f}"
+    )
+
+
+@pytest.mark.parametrize(("peak", "off"), [(0.5, 1.0), (0.01, 10.0), (90.0, 100.0)])
+def test_peak_is_set_beside_those_of_most_sets(peak: float, off: float) -> None:
+    curves = np.array([[0.0, size] for size in (0.1, 0.1, 0.4, 0.9, 0.9)])
+    assert peak_off(np.array([0.0, peak]), curves) == pytest.approx(off)
 
 
 def test_honest_study_is_not_accused_and_each_test_gets_a_figure(tmp_path: Path) -> None:

@@ -7,7 +7,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pyrofit.config import Study
-from pyrofit.steps.preview.corrections import LIMITS, ORDER, LikelyCause, possible_corrections
+from pyrofit.steps.preview.corrections import (
+    LIMITS,
+    ORDER,
+    SAMPLE,
+    LikelyCause,
+    possible_corrections,
+)
 from pyrofit.steps.preview.fit import Nearest, nearest, relative_misfits
 from pyrofit.steps.preview.reach import (
     OUTSIDE,
@@ -16,6 +22,7 @@ from pyrofit.steps.preview.reach import (
     Reached,
     RecordedCases,
     all_reached,
+    peak_off,
     simulate_all,
 )
 from pyrofit.steps.preview.record import Likely
@@ -43,6 +50,8 @@ OF_LIMITS = 1.3
 BESIDE_BEST, BESIDE_LEAST = 3.0, 0.03
 """A cause is named up to so many times what the best one leaves, and so much more."""
 MOST_CAUSES = 4
+BY_TENS = 10.0
+"""Factor by which a peak lies beside those of most sets, from which on no limit explains it."""
 
 
 def suspects(found: Mapping[Channel, Reached], left: Mapping[Channel, float]) -> list[Channel]:
@@ -79,7 +88,8 @@ def likely(
     """Return the causes whose corrections bring sets near the records, the likeliest first.
 
     Each correction is tried with a few sets, and the best ones are fitted. Limits are fitted where
-    the nearest set lies at one.
+    the nearest set lies at one. A factor of the values that undoes a peak ten times beside those
+    of the sets is the cause, whatever else the model misses.
 
     Parameters
     ----------
@@ -98,17 +108,19 @@ def likely(
         _tried(study, case, few, known, one)
         for one in possible_corrections(case, suspected, mostly)
     ]
-    chosen = _chosen(case, [one for one in tried if one is not None])
+    able = [one for one in tried if one is not None]
+    sure = [one for one in able if _undoes_tens(case, known, one)]
+    chosen = _chosen(case, sure or able)
     total = _mean_square(before.left)
     found = []
-    for one in (*chosen, *_wider_limits(study, case, sets, before)):
+    for one in chosen if sure else (*chosen, *_wider_limits(study, case, sets, before)):
         cause = one.correction
         apart = nearest(study, one.case, one.sets, one.curves).left
         left = _mean_square(apart)
         sizes = [size for (name, _), size in apart.items() if name in cause.places]
         explained = 1.0 - left / total
         allowed = FARTHEST if explained >= NEARLY_ALL else NEAR
-        if max([*sizes, float(np.sqrt(left))]) > allowed:
+        if not sure and max([*sizes, float(np.sqrt(left))]) > allowed:
             continue
         found.append(
             Likely(
@@ -121,7 +133,7 @@ def likely(
         )
     least = min((cause.left for cause in found), default=0.0)
     most = BESIDE_BEST * least + BESIDE_LEAST
-    good = [cause for cause in found if cause.explained >= EXPLAINS and cause.left <= most]
+    good = [c for c in found if (sure or c.explained >= EXPLAINS) and c.left <= most]
     return _distinct(sorted(good, key=_rank))
 
 
@@ -155,6 +167,17 @@ class _Tried:
         """Mean square difference of the best set drawn."""
         squares = relative_misfits(all_reached(self.case, self.curves)) ** 2
         return float(np.min(np.mean(squares, axis=1)))
+
+
+def _undoes_tens(case: RecordedCases, known: Curves, one: _Tried) -> bool:
+    """Tell whether a factor of values brings a peak that is ten times off among those of sets."""
+    changed = [c for c, frame in one.case.frames.items() if frame is not case.frames[c]]
+    before, after = all_reached(case, known), all_reached(one.case, one.curves)
+    return one.correction.cause == SAMPLE and any(
+        peak_off(before[c].value, known[c]) >= BY_TENS
+        and peak_off(after[c].value, one.curves[c]) == 1.0
+        for c in changed
+    )
 
 
 def _tried(
@@ -210,6 +233,6 @@ def _wider(low: float, high: float, unit: str) -> tuple[float, float]:
     share = 0.2 if unit == "K" else 0.75
     span = high - low
     new = low - max(span, share * abs(low)), high + max(span, share * abs(high))
-    least = 0.1 * low if low > 0.0 else new[0]
+    least = 0.1 * low if low > 0.0 else 0.0 if unit == "-" and low == 0.0 else new[0]
     most = 1.0 if unit == "-" and high <= 1.0 else new[1]
     return max(new[0], least), min(new[1], most)

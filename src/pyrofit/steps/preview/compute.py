@@ -25,6 +25,7 @@ from pyrofit.steps.preview.reach import (
     RecordedCases,
     all_reached,
     case_of,
+    peak_off,
     simulate_all,
 )
 from pyrofit.steps.preview.sets import Sets, draw_sets
@@ -39,6 +40,8 @@ BASES = 8
 """Sets about which each parameter is moved from limit to limit."""
 MOSTLY = 0.5
 """Share of a record outside from which on all of it may be wrong by a factor of ten."""
+FAR_PEAK = 3.0
+"""The same of its peak, beyond those of the sets: a band from zero on holds all that is small."""
 FELT = 0.005
 """Least change of a signal that counts, over its range."""
 
@@ -103,7 +106,11 @@ def preview(study: Study, measurements: Measurements, count: int = SETS) -> Prev
     before = nearest(study, alone, sets, curves, lambda left: many and not suspects(shown, left))
     left = before.left
     suspected = suspects(shown, left)
-    mostly = [channel for channel, one in reached.items() if one.share_outside > MOSTLY]
+    mostly = [
+        channel
+        for channel, one in reached.items()
+        if one.share_outside > MOSTLY or peak_off(one.value, curves[channel]) > FAR_PEAK
+    ]
     causes = likely(study, alone, sets, suspected, mostly, before) if suspected else []
     found = record.Preview(
         sets=count,

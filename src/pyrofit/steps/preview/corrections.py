@@ -30,7 +30,7 @@ TEMPERATURE, FLUX, THICKNESS = "unit of temperature", "flux", "thickness"
 CLOCK, RATE, SWAPPED = "clock", "heating rate", "swapped files"
 SAMPLE, SURROUNDINGS, LIMITS = "sample area or mass", "gas or wall temperature", "limits"
 BASELINE, PLACE = "baseline of the heat flow", "place of a thermocouple"
-WEIGHT = "mass of the samples"
+WEIGHT, ZERO = "mass of the samples", "zero of the balance"
 ORDER = (
     WEIGHT,
     TEMPERATURE,
@@ -39,6 +39,7 @@ ORDER = (
     CLOCK,
     RATE,
     SWAPPED,
+    ZERO,
     SAMPLE,
     BASELINE,
     PLACE,
@@ -54,6 +55,8 @@ SHIFTS_S = (-300.0, -120.0, -60.0, -30.0, 30.0, 60.0, 120.0, 300.0)
 FLAT = 0.1
 """Change of a record before the start of a test at most, over its range: without a flux nothing
 happens. A shift that leaves the test itself out would explain everything."""
+BELOW_ZERO = -0.02
+"""Last mass of a sample over its first one, below which the zero of the balance is off."""
 ROOM_K = 293.15
 USUAL_K = (250.0, 450.0)
 """Temperatures of gas and walls that need no explanation."""
@@ -93,8 +96,7 @@ def possible_corrections(
     outside
         Experiment and signal of the records outside.
     mostly
-        Records that lie outside for the most part. A factor of ten or more takes all of a record
-        outside, so that no other record has it.
+        Records that a factor of ten or more may take outside: other records are not tried with it.
     """
     names = list(dict.fromkeys(name for name, _ in outside))
     for name in names:
@@ -117,6 +119,7 @@ def _of_one(
     yield from _clocks(case, name)
     if isinstance(experiment, HeatedExperiment):
         yield from _rates(case, name)
+        yield from _zeros(case, name)
     yield from _samples(case, name, outside, mostly)
 
 
@@ -214,6 +217,27 @@ def _rates(case: RecordedCases, name: str) -> Iterator[LikelyCause]:
             f"the heating rate of {name} is {rate:.3g} K/min, not {given:g} K/min",
             heated_at(name, case.signals(name), rate, rate / given),
         )
+
+
+def _zeros(case: RecordedCases, name: str) -> Iterator[LikelyCause]:
+    """Yield that a mass fraction ends below zero: then at zero, with the first value as it is."""
+    for signal in case.signals(name):
+        quantity = case.experiments[name].quantity(signal)
+        values = case.frames[name, signal][quantity.column].to_numpy(float)
+        first, last = float(values[0]), float(values[-1])
+        if quantity.scales[0] == "fraction" and last < BELOW_ZERO * first:
+            yield LikelyCause(
+                ZERO,
+                (name,),
+                f"the zero of the balance of {name} is off: the {quantity.title} ends at "
+                f"{last:.2f}",
+                column_changed(name, (signal,), "", _from_zero),
+            )
+
+
+def _from_zero(mass: Any) -> Any:
+    """Return a mass that ends at zero and begins as before."""
+    return mass[0] * (mass - mass[-1]) / (mass[0] - mass[-1])
 
 
 def _samples(

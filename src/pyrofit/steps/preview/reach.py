@@ -30,6 +30,8 @@ OF_RANGE = 0.03
 OUTSIDE = 0.002
 """Mean distance outside, over the range, from which on it is told. Studies as shipped have 0.0006
 at most."""
+PEAKS = (0.1, 0.9)
+"""Quantiles of the peaks of the sets' curves that a record's peak is set beside."""
 OF_BAND = 0.10
 """The same as a share of the width of the band: 300 sets do not reach its edges."""
 
@@ -268,3 +270,21 @@ def reached(value: FloatArray, curves: FloatArray, noise: FloatArray) -> Reached
     misfit = np.sqrt(np.mean((curves - value) ** 2, axis=1)) / scale
     nearest = np.where(np.isfinite(misfit), misfit, np.inf)
     return Reached(value, lower, upper, margin, scale, nearest)
+
+
+def peak_off(value: FloatArray, curves: FloatArray) -> float:
+    """Return the factor by which the largest |value| lies beside those of most sets, 1 within.
+
+    Parameters
+    ----------
+    value
+        Measured values, shape (points,).
+    curves
+        Shape (sets, points); those that hold no numbers did not finish.
+    """
+    peaks = np.abs(curves[np.isfinite(curves).all(axis=1)]).max(axis=1)
+    if not peaks.size:
+        return 1.0
+    peak = max(float(np.abs(value).max()), 1e-300)
+    least, most = np.quantile(peaks, PEAKS)
+    return max(float(least) / peak, peak / max(float(most), 1e-300), 1.0)
