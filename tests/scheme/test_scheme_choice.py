@@ -72,7 +72,13 @@ def test_a_margin_is_bounded_however_much_rates_differ() -> None:
 
 
 def test_further_parameters_must_pay_in_the_fit_as_well() -> None:
-    assert chosen(candidate("many", 9, 9.0, 40, 40, 40), candidate("few", 3, 0.0, 7, 7, 7)) == "few"
+    given = candidate("many", 9, 9.0, 40, 40, 40), candidate("few", 3, 0.0, 39, 38, 38)
+    assert chosen(*given) == "few"
+
+
+def test_no_fit_makes_up_for_clearly_worse_predictions() -> None:
+    given = candidate("many", 9, 9.0, 40, 40, 40), candidate("few", 3, 0.0, 37, 38, 38)
+    assert chosen(*given) == "many"
 
 
 def test_of_as_many_parameters_the_least_bic_is_chosen() -> None:

@@ -3,9 +3,9 @@
 Schemes are compared by the log score of their predictions: the log density of each heating rate
 given the others, summed over the rates. A scheme predicts as well as the best one if its sum is
 lower by no more than a margin. This is three units, or the standard error of the difference over
-the rates where that is larger, six at most. Nor is a scheme given up for one of a higher BIC:
-further parameters must pay both in the fit and in predictions. Of the remaining schemes, the one
-with the fewest parameters is chosen; of as many, the one of the least BIC.
+the rates where that is larger, six at most. A scheme of a lower BIC than the best one's may lose
+six: further parameters must pay both in the fit and in predictions. Of the remaining schemes, the
+one with the fewest parameters is chosen; of as many, the one of the least BIC.
 """
 
 from collections.abc import Sequence
@@ -63,6 +63,11 @@ class Choice:
     margins: dict[str, float]
     held_out: dict[str, tuple[PredictedRecord, ...]]
 
+    @property
+    def gain(self) -> float:
+        """Log score of the chosen scheme above that of the study's."""
+        return self.chosen.log_score - self.own.log_score
+
 
 def choose_scheme(setting: SchemeSetting, tell: Tell) -> Choice:
     """Fit schemes, let them predict, and choose.
@@ -100,17 +105,15 @@ def choose(
     able = [c for c in candidates if c.left_out]
     best = max(able, key=lambda c: c.log_score)
     margins = {c.fitted.name: margin(best, c, settings) for c in able}
-    good = [
-        c
-        for c in able
-        if best.log_score - c.log_score <= margins[c.fitted.name] or c.fitted.bic < best.fitted.bic
-    ]
+    good = [c for c in able if best.log_score - c.log_score <= margins[c.fitted.name]]
     chosen = min(good, key=lambda c: (c.fitted.posed.count, c.fitted.bic))
     return best, chosen, margins
 
 
 def margin(best: Candidate, other: Candidate, settings: SchemeSettings) -> float:
     """Return the log score that a candidate may lose to the best one."""
+    if other.fitted.bic < best.fitted.bic:
+        return settings.largest_margin
     one, two = best.by_rate(), other.by_rate()
     lost = np.array([one[rate] - two[rate] for rate in one])
     error = float(np.std(lost, ddof=1) * np.sqrt(lost.size)) if lost.size > 1 else 0.0

@@ -7,8 +7,8 @@ RULE = (
     "The log scores of the heating rates left out are summed. A scheme predicts as "
     "well as the best one if its sum is at most one standard error of the "
     "difference lower. This standard error counts as {least:g} at least and "
-    "{largest:g} at most. A scheme of a lower BIC than the best one's is kept as "
-    "well: further parameters must pay in the fit and in predictions. The chosen "
+    "{largest:g} at most. A scheme of a lower BIC than the best one's may lose "
+    "{largest:g}: further parameters must pay in the fit and in predictions. The chosen "
     "scheme is the one with the fewest parameters among these, and with the lowest "
     "BIC among equals."
 )
@@ -20,7 +20,8 @@ def sentences(choice: Choice, settings: SchemeSettings) -> str:
     said = [
         f"Chosen: {chosen.fitted.posed.words} ({chosen.fitted.posed.count} parameters). It "
         f"predicts heating rates left out of the fit with an rms of {chosen.left_out_rms:.2g} of "
-        f"the initial mass; the scheme of the study, {_own(own)}."
+        f"the initial mass; the scheme of the study, {_own(own)}.",
+        _against_own(choice.gain, settings),
     ]
     held = {c.fitted.name: choice.held_out[c.fitted.name] for c in (chosen, own)}
     if held[chosen.fitted.name]:
@@ -36,6 +37,15 @@ def sentences(choice: Choice, settings: SchemeSettings) -> str:
         )
     said.append(_left(chosen, settings))
     return " ".join(said)
+
+
+def _against_own(gain: float, settings: SchemeSettings) -> str:
+    if abs(gain) <= settings.largest_margin:
+        return f"Their log scores differ by {abs(gain):.1f} only: both predict equally well."
+    side, word = ("above", "better") if gain > 0.0 else ("below", "worse")
+    return (
+        f"Its log score is {abs(gain):.1f} {side} that of the study's: it predicts clearly {word}."
+    )
 
 
 def _own(own: Candidate) -> str:

@@ -26,8 +26,6 @@ from pyrofit.scheme.records import records_of
 from pyrofit.scheme.settings import SchemeSettings
 
 SETTINGS = SchemeSettings()
-BETTER = 0.8
-"""Error of predictions over that of the study's reactions, below which others are offered."""
 
 
 def more_reactions(
@@ -54,17 +52,19 @@ def more_reactions(
     found = choose_scheme(SchemeSetting(study, measurements, records, settings), tell)
     ours, theirs = found.own.left_out_rms, found.chosen.left_out_rms
     words = found.chosen.fitted.posed.words
-    if theirs > BETTER * ours:
+    if found.gain <= settings.largest_margin:
         yield (
-            "No scheme of up to four reactions predicts heating rates left out of its fit clearly "
-            f"better than that of the study. The rms is {theirs:.2g} and {ours:.2g} of the initial "
-            "mass. Look at the records themselves: mass, temperature, baseline."
+            "No scheme of up to four reactions is chosen that predicts heating rates left out of "
+            f"its fit clearly better than that of the study. The rms is {theirs:.2g} of the "
+            f"initial mass with {words}, and {ours:.2g} with the reactions of the study. Look at "
+            "the records themselves: mass, temperature, baseline."
         )
         return
     yield (
         f"{words[0].upper()}{words[1:]} predict heating rates left out of the fit with an rms of "
-        f"{theirs:.2g} of the initial mass, the reactions of the study with {ours:.2g}. `pyrofit "
-        "scheme STUDY --write FILE` writes the study with them."
+        f"{theirs:.2g} of the initial mass, the reactions of the study with {ours:.2g}. Their log "
+        f"score is {found.gain:.1f} above that of the study. `pyrofit scheme STUDY --write FILE` "
+        "writes the study with them."
     )
 
 

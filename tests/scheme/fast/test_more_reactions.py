@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -12,6 +13,7 @@ from pyrofit.results import goodness
 from pyrofit.results.files import Results
 from pyrofit.results.goodness import Goodness
 from pyrofit.scheme.settings import SchemeSettings
+from pyrofit.stages import isoconversional
 from pyrofit.stages.isoconversional import more_reactions
 
 FEW = SchemeSettings(points=40, most_reactions=2, branches=1, random_starts=1, rounds=1)
@@ -59,6 +61,22 @@ def test_two_components_are_offered_after_a_misfit_of_one(
     (said,) = offered(1e-6)
     assert said.startswith("Two parallel reactions of first order predict heating rates left out")
     assert "`pyrofit scheme STUDY --write FILE`" in said
+
+
+@pytest.mark.parametrize(("gain", "first"), [(883.0, "Three"), (6.0, "No"), (-200.0, "No")])
+def test_the_log_score_tells_whether_a_scheme_is_offered(
+    gain: float, first: str, offered: Callable[[float], list[str]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def choice(*_: object) -> SimpleNamespace:
+        fitted = SimpleNamespace(posed=SimpleNamespace(words="three parallel reactions"))
+        chosen = SimpleNamespace(left_out_rms=0.03, fitted=fitted)
+        own = SimpleNamespace(left_out_rms=0.035)
+        return SimpleNamespace(chosen=chosen, own=own, gain=gain)
+
+    monkeypatch.setattr(isoconversional, "choose_scheme", choice)
+    (said,) = offered(1e-6)
+    assert said.split()[0] == first
+    assert "0.03 of the initial mass with three parallel" in said or "883.0 above" in said
 
 
 def test_nothing_is_offered_where_the_fit_describes(offered: Callable[[float], list[str]]) -> None:
