@@ -8,7 +8,7 @@ import pandas as pd
 
 from pyrofit.analysis.isoconversional.curve import Curve
 from pyrofit.analysis.isoconversional.levels import LEVELS, RecordsAtLevels, runs_of
-from pyrofit.analysis.isoconversional.line import Energies, Points, slopes
+from pyrofit.analysis.isoconversional.line import Energies, Points, counted, slopes
 from pyrofit.analysis.isoconversional.vyazovkin import vyazovkin
 from pyrofit.constants import GAS_CONSTANT
 from pyrofit.numerics import functions
@@ -32,8 +32,8 @@ def kas(runs: RecordsAtLevels, temperature_sd_K: float) -> Energies:
     y = functions.log(rate[:, None] / (temperature * temperature))
     first = slopes(Points(x, y, np.zeros(x.shape)), runs.groups)
     shift = rate[:, None] * runs.stacked("time_sd")
-    per_kelvin = first.value * x / temperature + 2.0 / temperature
-    sd = per_kelvin * np.sqrt(shift * shift + temperature_sd_K**2)
+    per_kelvin = counted(first.value) * x / temperature + 2.0 / temperature
+    sd = per_kelvin * np.sqrt(shift * shift + runs.temperature_sd(temperature_sd_K) ** 2)
     return slopes(Points(x, y, sd), runs.groups)
 
 
@@ -64,10 +64,12 @@ def friedman(runs: RecordsAtLevels, temperature_sd_K: float) -> Energies:
     first = slopes(Points(x, y, np.zeros(x.shape)), runs.groups)
     # A shift of the time at which a level is reached moves the temperature there as well.
     shift = runs.stacked("heating_K_s") * runs.stacked("time_sd")
-    per_kelvin = first.value * x / temperature
+    per_kelvin = counted(first.value) * x / temperature
     of_rate = runs.stacked("log_rate_sd")
     square = of_rate * of_rate
-    square = square + per_kelvin * per_kelvin * (shift * shift + temperature_sd_K**2)
+    square = square + per_kelvin * per_kelvin * (
+        shift * shift + runs.temperature_sd(temperature_sd_K) ** 2
+    )
     return slopes(Points(x, y, np.sqrt(square)), runs.groups)
 
 

@@ -12,6 +12,8 @@ REACHES = 0.015, 0.06
 """Least and largest distance in conversion of the points that a local parabola is fitted to."""
 PRECISION = 0.005
 """Relative error of a rate by noise that the distance is chosen for."""
+MASS_SD = 3e-3
+"""Standard deviation of a record's mass over its initial mass, by the drift of the balance."""
 FEWEST = 7
 """Fewest points of a local parabola."""
 _NEWTON = 20
@@ -68,6 +70,8 @@ class Crossing:
     time_sd, log_rate_sd
         Standard deviations of the time [s] and of the logarithm of the rate, by the scatter of
         the points about the local parabolas.
+    level_sd
+        Standard deviation of the time [s] by the drift of the balance, which shifts the levels.
     """
 
     time_s: FloatArray
@@ -76,6 +80,7 @@ class Crossing:
     rate: FloatArray
     time_sd: FloatArray
     log_rate_sd: FloatArray
+    level_sd: FloatArray
 
 
 def curve_of(
@@ -153,6 +158,7 @@ def crossing(curve: Curve, levels: FloatArray, reach: float) -> Crossing:
         rate=rate,
         time_sd=np.sqrt(variance * (of_value + ends)) / rate,
         log_rate_sd=np.sqrt(variance * of_rate) / rate,
+        level_sd=MASS_SD / (curve.lost * rate),
     )
 
 

@@ -47,6 +47,14 @@ class RecordsAtLevels:
         """Return a property of all records at the levels, shape (records, levels)."""
         return np.array([getattr(found, key) for found in self.at])
 
+    def temperature_sd(self, of_record_K: float) -> FloatArray:
+        """Return the standard deviation of T [K] at the levels, shape (records, levels).
+
+        It joins that of the record, and that of the mass: dT/dt times that of the time.
+        """
+        shift = self.stacked("heating_K_s") * self.stacked("level_sd")
+        return np.asarray(np.sqrt(shift * shift + of_record_K**2))
+
 
 def runs_of(curves: Sequence[Curve], reach: float | None = None) -> RecordsAtLevels:
     """Return records at `LEVELS` of conversion.

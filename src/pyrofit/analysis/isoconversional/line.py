@@ -66,6 +66,16 @@ def slopes(points: Points, groups: Sequence[Sequence[int]]) -> Energies:
     return Energies(value, WIDTH * sd * stretch, stretch)
 
 
+def counted(value: FloatArray) -> FloatArray:
+    """Return the E [J/mol] that an error of the temperature counts with at each level.
+
+    It is the median over the levels at least: where E is wrong it may be near 0, and the error
+    would vanish with it.
+    """
+    size = np.abs(value[np.isfinite(value)])
+    return np.asarray(np.maximum(np.abs(value), np.median(size) if size.size else 0.0))
+
+
 def _mean(a: FloatArray) -> float:
     known = a[np.isfinite(a)]
     return float(known.mean()) if known.size else float("nan")

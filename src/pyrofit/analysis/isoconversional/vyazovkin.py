@@ -14,13 +14,14 @@ from dataclasses import replace
 import numpy as np
 
 from pyrofit.analysis.isoconversional.levels import RecordsAtLevels
-from pyrofit.analysis.isoconversional.line import Energies, Points, slopes
+from pyrofit.analysis.isoconversional.line import Energies, Points, counted, slopes
 from pyrofit.constants import GAS_CONSTANT
 from pyrofit.numerics import functions
 from pyrofit.solver.arrays import FloatArray
 
 LOWEST, HIGHEST = 1e3, 1e6
-"""Energies [J/mol] between which the least is sought."""
+"""Energies [J/mol] between which the least is sought; one at an end of them is no result."""
+_CLEAR = 1.001
 _NODES = 33
 _SIMPSON = np.array([1.0, *([4.0, 2.0] * 15), 4.0, 1.0]) / 96.0
 _SECTIONS = 38
@@ -39,20 +40,24 @@ def vyazovkin(runs: RecordsAtLevels, temperature_sd_K: float) -> Energies:
     """
     shape = (len(runs.curves), runs.levels.size)
     x, y, sd = (np.full(shape, np.nan) for _ in range(3))
-    value = np.full(runs.levels.size, np.nan)
+    value, found = np.full(runs.levels.size, np.nan), []
     for k in range(runs.levels.size):
         steps = {i: step for i in range(shape[0]) if (step := _step(runs, i, k)) is not None}
         groups = [[i for i in group if i in steps] for group in runs.groups]
         groups = [group for group in groups if group]
-        if len(groups) < 2:
-            continue
-        value[k] = energy = _least(steps, groups)
+        energy = _least(steps, groups) if len(groups) >= 2 else LOWEST
+        # The search comes to an end where nothing within its limits is the least.
+        if LOWEST * _CLEAR < energy < HIGHEST / _CLEAR:
+            value[k] = energy
+            found.append((k, steps))
+    per_kelvin, of_T = counted(value), runs.temperature_sd(temperature_sd_K)
+    for k, steps in found:
         for i, step in steps.items():
-            x[i, k], log_integral, ends = step.at(energy)
+            x[i, k], log_integral, ends = step.at(value[k])
             # About E, ln J is a line in E: its points are those of y = c - E x.
-            y[i, k] = log_integral - energy * x[i, k]
+            y[i, k] = log_integral - value[k] * x[i, k]
             times = np.array([runs.before[i].time_sd[k], runs.after[i].time_sd[k]])
-            hot = energy * x[i, k] / runs.at[i].temperature_K[k] * temperature_sd_K
+            hot = per_kelvin[k] * x[i, k] / runs.at[i].temperature_K[k] * of_T[i, k]
             sd[i, k] = np.sqrt(float((ends * ends * times * times).sum()) + hot * hot)
     return replace(slopes(Points(x, y, sd), runs.groups), value=value)
 
