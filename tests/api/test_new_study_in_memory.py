@@ -101,3 +101,14 @@ def test_times_in_minutes_and_a_missing_column_are_told() -> None:
     said = [str(one.message) for one in told]
     assert any("data of tga_1K: the record shows a heating rate of 60 K/min" in one for one in said)
     assert any("data of tga_60K: there is no column of the temperature" in one for one in said)
+
+
+def test_a_gas_with_oxygen_is_told_by_draft_and_fit() -> None:
+    table = as_recorded("tga_air_5K", next(iter(arrays().values())))
+    with pytest.warns(UserWarning, match="The gas is air: the model has no oxidation"):
+        study = pf.new_study("plastic", tga={"tga_air_5K": table})
+    with (
+        pytest.warns(UserWarning, match="tga_air_5K: the gas is air, and the model has no oxid"),
+        pytest.raises((StudyError, DataError)),
+    ):
+        pf.fit(study)

@@ -57,8 +57,8 @@ def new_study(name: str, **given: Given) -> Study:
     -----
     UserWarning
         Of a heating rate, flux, unit or column that neither a record nor its name tells, and of a
-        record that contradicts its name. Of two records with the same numbers, which the study
-        has and which it leaves out.
+        record that contradicts its name. Of a gas with oxygen, as the model has no oxidation. Of
+        two records with the same numbers, which the study has and which it leaves out.
 
     Examples
     --------

@@ -1,5 +1,6 @@
 """Fits of a study to its measurements."""
 
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Literal
@@ -32,6 +33,7 @@ from pyrofit.api.tasks import (
 )
 from pyrofit.api.weighing import Weights, weighted, weights_of
 from pyrofit.config import Study
+from pyrofit.config.check.oxidised import oxidised
 from pyrofit.errors import StudyError
 from pyrofit.estimate.bounded_least_squares import Fit as End
 from pyrofit.estimate.identify import identify
@@ -119,6 +121,11 @@ def fit(
         its limits. A weight is not above 0, or a cost returns no finite numbers.
     DataError
         A measured series is missing, breaks a rule, or is too short to show its noise.
+
+    Warns
+    -----
+    UserWarning
+        The gas around a fitted sample holds oxygen, and the model has no oxidation.
     """
     study = read_study(study)
     values = values_within(study, "fixed", fixed)
@@ -137,6 +144,7 @@ def fit(
         if signals is not None or estimate is not None or stage is not None:
             raise StudyError("a cost has its own signals and parameters; leave out the others")
         check_cost(study, cost)
+        _warn_of_oxygen(study)
         study = with_kinetics_of(study, study.imp.kinetics)
         given = with_kinetics(study, data, values, starts)
         return fit_cost(study, data, cost, optimiser, given, initial)
@@ -146,9 +154,16 @@ def fit(
         study = with_kinetics_of(study, study.imp.kinetics)
         values = with_kinetics(study, data, values, starts)
     task = task_of(study, signals, estimate, values, stage, given_keys(study, data))
+    _warn_of_oxygen(study, [channel.experiment for channel in task.channels])
     if callable(cost):
         return fit_own_cost(task, data, cost, optimiser, initial)
     return fit_likelihood(task, data, starts, profiles, tell, initial, weights)
+
+
+def _warn_of_oxygen(study: Study, fitted: Sequence[str] | None = None) -> None:
+    """Warn, as `pyrofit check` does, that the gas at a fitted sample holds oxygen."""
+    for sentence in oxidised(study, fitted):
+        warnings.warn(f"study '{study.name}': {sentence}", stacklevel=3)
 
 
 def _silent(text: str) -> None:

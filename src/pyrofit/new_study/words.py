@@ -223,10 +223,14 @@ def _gas_changes(run: MeasuredFile) -> str:
 
 
 def assumed(records: Iterable[MeasuredFile]) -> list[str]:
-    """Say which numbers, units and columns of records are assumed, and which contradict a name."""
+    """Say which numbers, units and columns of records are assumed, and which contradict a name.
+
+    So is that a sample in a gas with oxygen does not oxidise.
+    """
     lines = []
     for run in records:
         lines += [f"{run.path}: {said}" for said in other_number(run)]
+        lines += [f"{run.path}: {gas}" for gas in [oxygen_words(run)] if gas]
         if run.lacks == "temperature":
             lines.append(f"{run.path}: there is no column of the temperature; a ramp is assumed")
         if run.told not in _CERTAIN:

@@ -1,13 +1,15 @@
 """Fitted tests in a gas with oxygen, where the model of a furnace lacks oxidation or the oxygen."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from pyrofit.config.keys.study import Study
 from pyrofit.data.gas_steps import holds_oxygen
 
 
-def oxidised(study: Study) -> Iterator[str]:
-    """Yield a sentence for each gas with oxygen around samples in a furnace that a cost compares.
+def oxidised(study: Study, fitted: Iterable[str] | None = None) -> Iterator[str]:
+    """Yield a sentence for each gas with oxygen around samples in a furnace that are fitted.
+
+    Those are the experiments given, by default all that a cost of the study compares.
 
     There is none where a reaction needs oxygen and the test tells how much its gas holds. The gas
     at a slab that burns is used up by the flame, so that `gas` of slabs is no matter.
@@ -15,7 +17,7 @@ def oxidised(study: Study) -> Iterator[str]:
     terms = [term for terms in study.imp.costs.values() for term in terms]
     terms += study.kinetics.cost if study.kinetics is not None else []
     by_gas: dict[str, list[str]] = {}
-    for name in dict.fromkeys(term.experiment for term in terms):
+    for name in dict.fromkeys((t.experiment for t in terms) if fitted is None else fitted):
         experiment = study.experiments.get(name)
         gas = getattr(experiment, "gas", "")
         told = study.material.oxidises and getattr(experiment, "oxygen", 0.0) != 0.0
