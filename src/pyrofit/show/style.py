@@ -98,6 +98,8 @@ MANY, MOST_COLUMNS = 12, 3
 """Panels beyond which a figure has more columns, and how many."""
 
 
+OF_AXES_MM, LETTER_MM = (24.0, 15.0), 1.5
+"""Width and height of a panel that its ticks and labels take, and width of a letter."""
 LONGEST_LABEL = 30
 """Letters of a line of a label: at 8 points they are as long as the axis of a panel."""
 
@@ -145,9 +147,28 @@ def panels(
 
 
 def letter(axes: Sequence[Axes], titles: Sequence[str]) -> None:
-    """Title the panels; with a letter in front where there are several."""
+    """Title the panels, in lines as long as these; with a letter in front of several titles."""
     for i, (ax, title) in enumerate(zip(axes, titles, strict=True)):
-        ax.set_title(f"{letters(i)}) {title}" if len(axes) > 1 else title, loc="left")
+        text = f"{letters(i)}) {title}" if len(axes) > 1 else title
+        most = _letters_along(ax, 0)
+        if len(text) > most and "$" not in text:
+            text = "\n".join(textwrap.wrap(text, most))
+        ax.set_title(text, loc="left")
+
+
+def label_y(ax: Axes, text: str) -> None:
+    """Label the axis of values, in lines that are no longer than a panel is high."""
+    ax.set_ylabel(in_lines(text.replace("\n", " "), min(_letters_along(ax, 1), LONGEST_LABEL)))
+
+
+def _letters_along(ax: Axes, way: int) -> int:
+    """Return how many letters of 8 points fit along a panel: 0 = its width, 1 = its height."""
+    place, canvas = ax.get_subplotspec(), ax.get_figure()
+    if place is None or canvas is None:
+        return LONGEST_LABEL
+    grid = place.get_gridspec()
+    size = canvas.bbox.size[way] / canvas.dpi / MM / (grid.nrows if way else grid.ncols)
+    return max(int((size - OF_AXES_MM[way]) / LETTER_MM), 8)
 
 
 def letters(i: int) -> str:

@@ -45,7 +45,7 @@ def good_sets(study: Study, results: Results) -> Canvas:
         )
         ax.set_xlim(left=0.0)
         ax.set_xlabel("time [s]")
-        ax.set_ylabel(label_of_axis(study, name, signal))
+        style.label_y(ax, label_of_axis(study, name, signal))
     data = data_name(study, [(name, signal) for name, signal in pairs])
     entries: list[Any] = [style.line(data, color=style.MEASURED, linewidth=0.7)]
     entries += [style.patch("stated uncertainty", color=style.BAND)] if stated else []
