@@ -41,9 +41,9 @@ function held(grid) {
   const all = new Uint16Array(bytes(grid.curves));
   const size = study.signals.reduce((n, s) => n + s.x.length, 0);
   const place = (at, v) => {
-    const u = Math.min(Math.max((v - at[0]) / (at[at.length - 1] - at[0]) * (at.length - 1), 0), at.length - 1);
-    const i = Math.min(Math.floor(u), at.length - 2);
-    return [[i, 1 - (u - i)], [i + 1, u - i]];
+    const i = Math.min(Math.max(at.findLastIndex(a => a <= v), 0), at.length - 2);
+    const u = Math.min(Math.max((v - at[i]) / (at[i + 1] - at[i]), 0), 1);
+    return [[i, 1 - u], [i + 1, u]];
   };
   return async state => {
     let corners = [[0, 1]];

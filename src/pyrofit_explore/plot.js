@@ -133,7 +133,8 @@ class Plot {
     for (const panel of [above, below]) this.axes(pen, panel);
     pen.textBaseline = "bottom";
     pen.textAlign = "left";
-    pen.fillText(`${s.quantity} [${s.unit}]`, this.left, above.top - 1);
+    const title = `${s.quantity} [${s.unit}]`, most = this.left + this.width + 8;
+    pen.fillText(title, Math.max(Math.min(this.left, most - pen.measureText(title).width), 0), above.top - 1, most);
     pen.fillText(`simulated − measured [${s.difference}]`, this.left, below.top - 1);
     pen.textAlign = "center";
     pen.fillText(s.abscissa, this.left + this.width / 2, below.top + below.height + 33);
@@ -147,7 +148,7 @@ class Plot {
     pen.textAlign = "right"; pen.textBaseline = "middle";
     for (const y of residual ? [low, 0, high] : ticks(low, high, 5)) { line(pen, [[this.left, Y(y)], [this.left + this.width, Y(y)]]); pen.fillText(shown(y), this.left - 4, Y(y)); }
     pen.textAlign = "center"; pen.textBaseline = "top";
-    for (const x of ticks(this.x0, this.x1, 5)) { line(pen, [[this.X(x), top], [this.X(x), top + height]]); if (residual) pen.fillText(shown(x), this.X(x), top + height + 4); }
+    for (const x of ticks(this.x0, this.x1, 5)) { line(pen, [[this.X(x), top], [this.X(x), top + height]]); if (residual) pen.fillText(shown(x), Math.min(this.X(x), this.left + this.width + 8 - pen.measureText(shown(x)).width / 2), top + height + 4); }
     pen.strokeStyle = "#9aa2a8"; pen.strokeRect(this.left, top, this.width, height);
   }
 

@@ -110,7 +110,10 @@ def _grid(
     if steps < _FEWEST_STEPS:
         raise StudyError("the curves do not fit into a page; give one slider by --sliders")
     of = [model.problem.names.index(name) for name in names]
-    axes = [np.linspace(model.problem.lower[i], model.problem.upper[i], steps) for i in of]
+    axes = [
+        _axis(float(model.problem.lower[i]), float(model.problem.upper[i]), steps, values[name])
+        for i, name in zip(of, names, strict=True)
+    ]
     sets = np.array(list(itertools.product(*axes)))
     columns = {name: sets[:, k].copy() for k, name in enumerate(names)}
     runs = model.simulate_all({**values, **columns}, len(sets))
@@ -124,6 +127,18 @@ def _grid(
         "scales": [scale for _, scale in parts],
         "curves": base64.b64encode(codes.astype("<u2").tobytes()).decode(),
     }
+
+
+def _axis(low: float, high: float, steps: int, start: float) -> FloatArray:
+    """Return even steps, the one nearest to the start moved there: the start is exact.
+
+    >>> _axis(0.0, 1.0, 5, 0.3).tolist(), _axis(0.0, 1.0, 5, 1.0).tolist()
+    ([0.0, 0.3, 0.5, 0.75, 1.0], [0.0, 0.25, 0.5, 0.75, 1.0])
+    """
+    axis = np.linspace(low, high, steps)
+    if low < start < high and start not in axis:
+        axis[np.clip(np.argmin(np.abs(axis - start)), 1, steps - 2)] = start
+    return axis
 
 
 def _coded(curves: Sequence[FloatArray]) -> tuple[FloatArray, tuple[float, float]]:

@@ -57,6 +57,14 @@ def test_curves_of_the_grid_are_those_of_the_study(session: Session, written: Pa
     assert np.all(np.abs(curves[3 * len(k) + 5] - own) <= 0.51 * scale + 1e-9)
 
 
+def test_the_page_begins_at_the_start_itself(session: Session, written: Path) -> None:
+    found = content(written)
+    for name, at in zip(found["grid"]["names"], found["grid"]["at"], strict=True):
+        assert found["study"]["middle"][name] in [pytest.approx(value, rel=1e-12) for value in at]
+        assert session.sets["truth"][name] in [pytest.approx(value, rel=1e-12) for value in at]
+        assert np.all(np.diff(at) > 0.0)
+
+
 def test_the_strongest_parameters_are_sliders_by_default(session: Session) -> None:
     found = strongest_pair(session.base, session.study.true_values())
     assert "T_p" in found
