@@ -280,6 +280,29 @@ def test_mass_that_ends_below_zero_tells_the_zero_of_the_balance() -> None:
     )
 
 
+def test_words_tell_a_point_repeats_and_sets_that_do_not_finish() -> None:
+    given = smoke()[0].model_dump(mode="json", exclude_defaults=True)
+    given["experiments"]["slab_25"]["repeats"] = [{}, {}]
+    study = as_study(given, "smoke.json")
+    left = [NearestSet(experiment="slab_25_1", signal="mlr", left=0.01)]
+    kept = {"sets": 300, "nearest": left, "causes": [], "unmoved": []}
+    point = Window(
+        experiment="slab_60", signal="mlr", begins=9.6, ends=10.3, above=True, largest=1, share=0.1
+    )
+    unfinished = {"slab_25_1": 24}
+    _, reached_all = sentences_on(
+        study, Preview(**kept, unfinished=unfinished, windows=[], far=False)
+    )
+    assert reached_all == (
+        "Data against limits: those of 300 sets that finish reach the data of all tests "
+        "(1 record, one repeat of each test, and the other repeats)."
+    )
+    first, *_ = sentences_on(study, Preview(**kept, unfinished={}, windows=[point], far=True))
+    assert " all sets at 10 s, by up to" in first
+    first, *_ = sentences_on(study, Preview(**kept, unfinished={}, windows=[], far=True))
+    assert first.startswith("Each record alone lies within the limits and a margin for noise")
+
+
 @pytest.mark.parametrize(("peak", "off"), [(0.5, 1.0), (0.01, 10.0), (90.0, 100.0)])
 def test_peak_is_set_beside_those_of_most_sets(peak: float, off: float) -> None:
     curves = np.array([[0.0, size] for size in (0.1, 0.1, 0.4, 0.9, 0.9)])

@@ -33,8 +33,7 @@ def sentences_on(study: Study, found: Preview) -> Iterator[str]:
         yield from _causes(found)
         yield from _repeats(study, found)
     else:
-        records = several(len(found.nearest), "record")
-        yield f"Data against limits: {found.sets} sets reach the data of all tests ({records})."
+        yield _reached(study, found)
     if (lacking := lacking_water(found)) != "":
         yield lacking
     if found.unmoved:
@@ -43,6 +42,14 @@ def sentences_on(study: Study, found: Preview) -> Iterator[str]:
             f"Between its limits {listed(found.unmoved)} {verb} no signal beyond its noise, and "
             "cannot be estimated from these data."
         )
+
+
+def _reached(study: Study, found: Preview) -> str:
+    sets = f"those of {found.sets} sets that finish" if found.unfinished else f"{found.sets} sets"
+    records = several(len(found.nearest), "record")
+    if any(experiment.repeat for experiment in study.experiments.values()):
+        records += ", one repeat of each test, and the other repeats"
+    return f"Data against limits: {sets} reach the data of all tests ({records})."
 
 
 def _unfinished(found: Preview) -> Iterator[str]:
@@ -55,18 +62,20 @@ def _window(study: Study, window: Window) -> str:
     experiment = study.experiments[window.experiment]
     quantity = experiment.quantity(window.signal)
     side = "above" if window.above else "below"
+    span = window_span(quantity, window.begins, window.ends)
+    word = "from" if " to " in span else "at"
     return (
         f"{window.experiment}, {experiment.words(window.signal)}: the data lie {side} all sets "
-        f"from {window_span(quantity, window.begins, window.ends)}, by up to "
+        f"{word} {span}, by up to "
         f"{size_words(quantity, window.largest)} ({100.0 * window.share:.0f} % of the range)."
     )
 
 
 def window_span(quantity: Quantity, begins: float, ends: float) -> str:
-    """Return a window in words: times, or temperatures of a heated sample."""
-    if quantity.against_temperature:
-        return f"{begins - ICE_POINT_K:.0f} to {ends - ICE_POINT_K:.0f} °C"
-    return f"{begins:.0f} to {ends:.0f} s"
+    """Return a window in words: times, or temperatures of a heated sample; or one point."""
+    unit, offset = ("°C", ICE_POINT_K) if quantity.against_temperature else ("s", 0.0)
+    first, last = f"{begins - offset:.0f}", f"{ends - offset:.0f}"
+    return f"{first} {unit}" if first == last else f"{first} to {last} {unit}"
 
 
 def size_words(quantity: Quantity, value: float) -> str:
@@ -85,8 +94,9 @@ def _far(study: Study, found: Preview) -> Iterator[str]:
         if one.left > LEAST_LEFT
     ]
     yield (
-        "Each record alone lies within the limits, but no set tried comes near all at once. The "
-        f"nearest one differs, in per cent of the range, from {listed(parts)}."
+        "Each record alone lies within the limits and a margin for noise and errors of the model, "
+        "but no set tried comes near all at once. The nearest one differs, in per cent of the "
+        f"range, from {listed(parts)}."
     )
 
 
