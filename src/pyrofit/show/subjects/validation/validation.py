@@ -50,7 +50,7 @@ TABLE = Table(
     applies=lambda study: bool(study.validation.experiments),
     make=validation,
     title="Scores of every set at every predicted experiment",
-    note="CV(RMSE) is the RMSE divided by the mean of the measured mass loss rate. 'Held-out "
+    note="CV(RMSE) of a rate is the RMSE divided by the mean of its measured values. 'Held-out "
     "signal': not fitted, though another signal of the same experiment was. 'Solver': the "
     "solver's own error in the same measure, estimated by running again with twice the cells "
     "and half the steps.",
