@@ -94,8 +94,8 @@ def _far(study: Study, found: Preview) -> Iterator[str]:
         if one.left > LEAST_LEFT
     ]
     yield (
-        "Each record alone lies within the limits and a margin for noise and errors of the model, "
-        "but no set tried comes near all at once. The nearest one differs, in per cent of the "
+        "Each record alone lies within the limits and a margin for noise and model errors, but no "
+        "set tried comes near all at once. The nearest one differs, in per cent of the "
         f"range, from {listed(parts)}."
     )
 
