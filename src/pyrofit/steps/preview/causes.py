@@ -88,8 +88,8 @@ def likely(
     """Return the causes whose corrections bring sets near the records, the likeliest first.
 
     Each correction is tried with a few sets, and the best ones are fitted. Limits are fitted where
-    the nearest set lies at one. A factor of the values that undoes a peak ten times beside those
-    of the sets is the cause, whatever else the model misses.
+    the nearest set lies at one. A factor may undo a peak that is ten times beside those of the
+    sets. It is the cause where only wider limits explain the record, whatever else is missed.
 
     Parameters
     ----------
@@ -109,32 +109,35 @@ def likely(
         for one in possible_corrections(case, suspected, mostly)
     ]
     able = [one for one in tried if one is not None]
-    sure = [one for one in able if _undoes_tens(case, known, one)]
-    chosen = _chosen(case, sure or able)
     total = _mean_square(before.left)
     found = []
-    for one in chosen if sure else (*chosen, *_wider_limits(study, case, sets, before)):
-        cause = one.correction
-        apart = nearest(study, one.case, one.sets, one.curves).left
-        left = _mean_square(apart)
-        sizes = [size for (name, _), size in apart.items() if name in cause.places]
-        explained = 1.0 - left / total
-        allowed = FARTHEST if explained >= NEARLY_ALL else NEAR
-        if not sure and max([*sizes, float(np.sqrt(left))]) > allowed:
-            continue
-        found.append(
-            Likely(
-                cause=cause.cause,
-                places=list(cause.places),
-                words=cause.words,
-                explained=explained,
-                left=float(np.sqrt(left)),
-            )
-        )
+    for one in (*_chosen(case, able), *_wider_limits(study, case, sets, before)):
+        cause, sizes = _judged(study, one, total)
+        allowed = FARTHEST if cause.explained >= NEARLY_ALL else NEAR
+        if max([*sizes, cause.left]) <= allowed:
+            found.append(cause)
     least = min((cause.left for cause in found), default=0.0)
     most = BESIDE_BEST * least + BESIDE_LEAST
-    good = [c for c in found if (sure or c.explained >= EXPLAINS) and c.left <= most]
+    good = [cause for cause in found if cause.explained >= EXPLAINS and cause.left <= most]
+    if all(cause.cause == LIMITS for cause in good):
+        by_tens = [one for one in able if _undoes_tens(case, known, one)]
+        good = [_judged(study, one, total)[0] for one in _chosen(case, by_tens)] or good
     return _distinct(sorted(good, key=_rank))
+
+
+def _judged(study: Study, one: "_Tried", total: float) -> tuple[Likely, list[float]]:
+    """Return a cause, and what it leaves of the records of its own places, over the range."""
+    cause = one.correction
+    apart = nearest(study, one.case, one.sets, one.curves).left
+    left = _mean_square(apart)
+    likely_one = Likely(
+        cause=cause.cause,
+        places=list(cause.places),
+        words=cause.words,
+        explained=1.0 - left / total,
+        left=float(np.sqrt(left)),
+    )
+    return likely_one, [size for (name, _), size in apart.items() if name in cause.places]
 
 
 def _mean_square(left: Mapping[Channel, float]) -> float:
