@@ -197,6 +197,14 @@ def test_misfit_to_both_sides_is_told_by_its_rms() -> None:
         assert ("of the whole record is 4 g/(m² s)" in said) == (rms < 4e-3)
 
 
+def test_misfit_of_one_point_is_told_at_its_place() -> None:
+    study = pf.read_study(Path(__file__).parents[2] / "config" / "smoke.yaml")
+    for begin, end, words in ((10.2, 10.4, "too high at 10 s."), (10.0, 20.0, "from 10 to 20 s.")):
+        misses = (Miss(begin, end, None, None, 2e-3, 2e-3),)
+        signal = SignalGoodness("slab_25", "mlr", 1e-6, 2e-3, 0.1, 1e-4, 1.0, 1e-3, misses)
+        assert where_missed(study, signal).endswith(words)
+
+
 @pytest.mark.parametrize("described", [True, False])
 def test_repeats_described_differently_are_compared_less_that_difference(described: bool) -> None:
     time = np.linspace(0.0, 900.0, 181)

@@ -137,11 +137,11 @@ def _window(w: Miss, mean: float, rms: float, unit: str) -> str:
     side = "too high" if mean > 0.0 else "too low"
     if abs(mean) < ONE_SIDE * rms:
         mean, side = rms, "off (rms), to both sides,"
-    size = _size(abs(mean), unit)
-    if w.start_K is None or w.end_K is None:
-        return f"{size} {side} from {w.start_s:.0f} to {w.end_s:.0f} s"
-    low, high = celsius(w.start_K), celsius(w.end_K)
-    return f"{size} {side} from {low:.0f} to {high:.0f} °C"
+    begin, end, of = f"{w.start_s:.0f}", f"{w.end_s:.0f}", "s"
+    if w.start_K is not None and w.end_K is not None:
+        begin, end, of = f"{celsius(w.start_K):.0f}", f"{celsius(w.end_K):.0f}", "°C"
+    place = f"at {begin} {of}" if begin == end else f"from {begin} to {end} {of}"
+    return f"{_size(abs(mean), unit)} {side} {place}"
 
 
 def repeats_that_differ(study: Study, found: Goodness) -> Iterator[str]:
