@@ -40,7 +40,7 @@ EDITS = {
     "quantities/mlr.py": EVERYTHING,
     "cost/__init__.py": EVERYTHING,
     "solver/kernels/heat.py": EVERYTHING,
-    "estimate/sceua.py": {"fits", "prediction", "robustness", "export for FDS"},
+    "estimate/sceua.py": {"fits", "prediction", "export for FDS"},
     "steps/robustness/compute.py": {"robustness"},
     "show/subjects/validation/validation.py": {"figures", "report"},
     "show/subjects/costs/spread.py": {"report"},

@@ -234,8 +234,9 @@ class Counted:
         self.sets: list[int] = []
 
     def simulate(self, experiments: Any, *rest: Any) -> Any:
+        *_, sets, _ = rest
         self.experiments += experiments
-        self.sets += [rest[-1]] * len(experiments)
+        self.sets += [sets] * len(experiments)
         return self.kind.simulate(experiments, *rest)
 
 

@@ -125,7 +125,9 @@ def test_model_that_never_finishes_is_a_clear_error(
     series: Measurements, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(
-        Likelihood, "residuals_all", lambda self, X: [np.full(sum(self.points), FAILED) for _ in X]
+        Likelihood,
+        "residuals_all",
+        lambda self, X, led=False: [np.full(sum(self.points), FAILED) for _ in X],
     )
     with pytest.raises(DataError, match="no run within the limits of the parameters finishes"):
         set_up(study(), series)

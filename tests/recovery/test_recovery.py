@@ -52,7 +52,8 @@ def relative_error(problem: Problem, values: Any) -> dict[str, float]:
 
 def test_least_squares_recovers_all_properties_from_rate_and_back_temperature(known: Any) -> None:
     problem = posed(known, tuple(TRUTH), "mlr", "back_temperature")
-    best = multistart(problem, 2, 1)[0]
+    # Three of four starts end there, the others at cp on its limit.
+    best = multistart(problem, 4, 1)[0]
     error = relative_error(problem, best.values)
     assert error.pop("rho") < 1e-4  # the released mass alone determines it
     assert max(error.values()) < 5e-3, error

@@ -74,7 +74,7 @@ def test_counted_calls_are_told_with_the_time_left(capsys: pytest.CaptureFixture
 
 
 def test_counted_problem_counts_the_calls_of_a_copy(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(Problem, "outcomes", lambda self, values, sets: [(Status.OK, [])] * sets)
+    monkeypatch.setattr(Problem, "outcomes", lambda _, values, sets, led: [(Status.OK, [])] * sets)
     empty: Any = None
     one = np.ones(2)
     problem = Problem(("k", "cp"), 0.0 * one, one, empty, {}, {}, (), empty, empty)

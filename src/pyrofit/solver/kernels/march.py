@@ -22,6 +22,7 @@ from pyrofit.solver.kernels.jit import inner, loop
 from pyrofit.solver.kernels.lanes import in_lane, opposite, somewhere, where, with_lane
 from pyrofit.solver.kernels.progress import ended, moved, next_clock, started, tried
 from pyrofit.solver.kernels.state import (
+    OWN,
     accept,
     begin,
     drop_thin,
@@ -68,19 +69,28 @@ def as_led(ratio, running):
 
 
 @inner
-def drop(taken, firsts, flat, network):
-    """Move thin cells to the skin where a step was taken; return the heat stored by that."""
-    heat = 0.0 * taken
+def drop(taken, firsts, flat, network, led):
+    """Move thin cells to the skin where a step was taken; return the heat stored by that.
+
+    Lanes that are led move as many as the first one does, as long as that runs.
+    """
+    heat, count = 0.0 * taken, OWN
     for lane in range(firsts.size):
         if in_lane(taken, lane) == 1.0:
-            firsts[lane], moved_heat = drop_thin(flat, lane, firsts[lane], network)
+            first = firsts[lane]
+            firsts[lane], moved_heat = drop_thin(flat, lane, first, network, count)
             heat = with_lane(heat, lane, moved_heat)
+            if led and lane == 0:
+                count = firsts[lane] - first
     return heat
 
 
 @inner
-def burnt_out(taken, now, firsts, arrays, network):
-    """Return the status, OK in the lanes that a step has burnt out."""
+def burnt_out(taken, now, firsts, arrays, network, led):
+    """Return the status, OK in the lanes that a step has burnt out.
+
+    Lanes that are led are burnt out with the first one.
+    """
     status = now.status
     limit = BURNT_FRACTION * now.mass
     maybe = (taken == 1.0) & (status == UNBURNT) & may_be_burnt(arrays.work, limit, network)
@@ -91,6 +101,9 @@ def burnt_out(taken, now, firsts, arrays, network):
                 arrays.flat, lane, firsts[lane], network, in_lane(limit, lane)
             ):
                 status = with_lane(status, lane, OK)
+    if led and in_lane(now.status, 0) == UNBURNT:
+        fine = now.running & (status <= UNBURNT)
+        status = where(fine, in_lane(status, 0), status)
     return status
 
 
@@ -138,7 +151,7 @@ def march(T_start, firsts, empty, description, numerics, end, probes, arrays, wr
             size = size_of(work, edge.first, step.front, description)
         heat = none
         if may_drop(work, edge, taken, network):
-            heat = drop(taken, firsts, flat, network)
+            heat = drop(taken, firsts, flat, network, numerics.led)
             edge = edge_of(T_start, firsts)
         clock = next_clock(now, again, ratio, exposure, numerics, end)
         now = moved(now, step, accepted, heat, clock)
@@ -146,6 +159,7 @@ def march(T_start, firsts, empty, description, numerics, end, probes, arrays, wr
         record(trace, rows, taken, now, back, (step.rate, step.power), size)
         record_probes(trace, rows, step.front, size, flat, firsts, empty, probes)
         rows += 1
-        now = ended(now, burnt_out(taken, now, firsts, arrays, network), numerics, end)
+        burnt = burnt_out(taken, now, firsts, arrays, network, numerics.led)
+        now = ended(now, burnt, numerics, end)
     conclude(written.outcome, now, total_mass(work) - exposure.backing_mass)
     compact(trace.flat, rows)

@@ -16,6 +16,8 @@ from pyrofit.solver.kernels.trace import Size
 
 DEAD_FRACTION = 1.0e-7
 """Reactant left, relative to the cell's initial mass, below which a cell may leave the grid."""
+OWN = -1
+"""Stands for the number of those cells that are burnt and thin."""
 THIN_FRACTION = 0.01
 """Residue thickness, relative to the cell's initial one, below which a cell may leave the grid."""
 
@@ -122,14 +124,23 @@ def may_drop(work, edge, taken, network):
 
 
 @inner
-def drop_thin(flat, lane, first, network):
-    """Move cells that are burnt and thin to the skin; return the first one left, heat stored."""
+def is_thin(flat, lane, n, network):
+    """Tell whether a cell is burnt and thin."""
     cell = flat.cell
-    heat = 0.0
+    burnt = reactant_in_lane(flat.m, n, lane, network) < cell[row.dead, n, lane]
+    return burnt and cell[row.d, n, lane] <= THIN_FRACTION * cell[row.d_start, n, lane]
+
+
+@inner
+def drop_thin(flat, lane, first, network, count):
+    """Move cells to the skin, those that are burnt and thin, or as many as ``count`` says.
+
+    Return the first one left, and the heat stored.
+    """
+    cell = flat.cell
+    heat, behind = 0.0, first + count
     while first < flat.m.shape[1] - 1:
-        burnt = reactant_in_lane(flat.m, first, lane, network) < cell[row.dead, first, lane]
-        thin = THIN_FRACTION * cell[row.d_start, first, lane]
-        if not burnt or cell[row.d, first, lane] > thin:
+        if first >= behind if count != OWN else not is_thin(flat, lane, first, network):
             break
         for i in range(flat.m.shape[0]):
             flat.skin[i, 0, lane] += flat.m[i, first, lane]
