@@ -88,14 +88,15 @@ class Trust:
 
     @property
     def confirmed(self) -> bool:
-        """Whether predictions improve and held-out signals, if any, gain enough by themselves.
+        """Whether predictions improve and held-out signals, if any, gain enough by themselves."""
+        enough = self.held_out_gain >= self.settings.informative_gain
+        return self.predicts and (not self.held_out or enough)
 
-        One that is outvoted is left out of this sum: the other ones must gain enough.
-        """
+    @property
+    def held_out_gain(self) -> float:
+        """Gain of the log score of held-out signals together, without one that is outvoted."""
         out = self.worse if self.outvoted else []
-        gains = [gain for name, gain in self.held_out.items() if name not in out]
-        least = self.settings.informative_gain
-        return self.predicts and (not self.held_out or sum(gains) >= least)
+        return sum(gain for name, gain in self.held_out.items() if name not in out)
 
     @property
     def held_out(self) -> dict[str, float]:

@@ -52,7 +52,7 @@ def judge(found: Search, rng: np.random.Generator, processes: int = 1) -> Verdic
     elif reasons and found.end_lack.adequate and (part := _partly(found, without, context, [])):
         return part
     if not found.end_lack.adequate:
-        reasons += [] if reasons else [f"{effect}: {why}" for effect, why in failed]
+        reasons += [] if reasons else [f"{_title(effect)}: {why}" for effect, why in failed]
         reasons.append("the residuals exceed the noise, with every effect that gains enough")
     of_base = found.rounds[0].lack()
     if reasons and of_base.passes:
@@ -302,10 +302,12 @@ def _title(effect: str) -> str:
 def _unconfirmed(judged: Judged) -> str:
     if not judged.trust.predicts:
         return f"no prediction clearly confirms {_title(judged.effect)}"
-    gain = sum(judged.trust.held_out.values())
+    trust = judged.trust
+    out = trust.worse[0].removeprefix(f"{HELD_OUT}: ") if trust.outvoted else ""
+    beside = f" beside {out}" if out else ""
     return (
-        f"with {_title(judged.effect)}, the log score of held-out signals gains {gain:+.1f} only; "
-        f"a confirmation needs {judged.trial.settings.informative_gain:g}"
+        f"with {_title(judged.effect)}, the log score of held-out signals{beside} gains "
+        f"{trust.held_out_gain:+.1f} only; a confirmation needs {trust.settings.informative_gain:g}"
     )
 
 
