@@ -18,10 +18,11 @@ from pyrofit.results.files import Results, write_csv
 from pyrofit.stages.measurements import computed
 from pyrofit.steps.preview import reach
 from pyrofit.steps.preview.compute import OF_REPEATS, all_simulated, preview, windows
-from pyrofit.steps.preview.corrections import WEIGHT, LikelyCause, possible_corrections
+from pyrofit.steps.preview.corrections import possible_corrections
 from pyrofit.steps.preview.figures import draw_experiments
 from pyrofit.steps.preview.fit import nearest
 from pyrofit.steps.preview.inputs import INPUTS
+from pyrofit.steps.preview.likely_cause import WEIGHT, LikelyCause
 from pyrofit.steps.preview.page import PAGE
 from pyrofit.steps.preview.reach import (
     NOISE,

@@ -7,14 +7,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pyrofit.config import Study
-from pyrofit.steps.preview.corrections import (
-    LIMITS,
-    ORDER,
-    SAMPLE,
-    LikelyCause,
-    possible_corrections,
-)
+from pyrofit.steps.preview.corrections import possible_corrections
 from pyrofit.steps.preview.fit import Nearest, nearest, relative_misfits
+from pyrofit.steps.preview.likely_cause import LIMITS, ORDER, SAMPLE, LikelyCause
 from pyrofit.steps.preview.reach import (
     OUTSIDE,
     Channel,

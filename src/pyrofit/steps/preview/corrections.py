@@ -1,52 +1,34 @@
 """Errors of a description or a file, each as the correction that would undo it."""
 
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from itertools import combinations
+from collections.abc import Callable, Collection, Iterator, Sequence
 from typing import Any
 
 import numpy as np
 
-from pyrofit.model.experiment import Experiment
-from pyrofit.model.heated import Baseline, HeatedExperiment
+from pyrofit.model.heated import HeatedExperiment
 from pyrofit.model.slab import SlabExperiment
-from pyrofit.quantities.mass import UNEQUAL
 from pyrofit.quantities.units import ICE_POINT_K
-from pyrofit.show.text import listed
 from pyrofit.steps.preview.changes import (
-    Change,
-    before_backing,
     column_changed,
     heated_at,
     multiplied,
     part_changed,
     shifted,
-    swapped,
-    without_baselines,
+)
+from pyrofit.steps.preview.corrections_of_several import baselines, places, swaps, weights
+from pyrofit.steps.preview.likely_cause import (
+    CLOCK,
+    FLUX,
+    RATE,
+    SAMPLE,
+    SURROUNDINGS,
+    TEMPERATURE,
+    THICKNESS,
+    ZERO,
+    LikelyCause,
 )
 from pyrofit.steps.preview.reach import Channel, RecordedCases
 
-TEMPERATURE, FLUX, THICKNESS = "unit of temperature", "flux", "thickness"
-CLOCK, RATE, SWAPPED = "clock", "heating rate", "swapped files"
-SAMPLE, SURROUNDINGS, LIMITS = "sample area or mass", "gas or wall temperature", "limits"
-BASELINE, PLACE = "baseline of the heat flow", "place of a thermocouple"
-WEIGHT, ZERO = "mass of the samples", "zero of the balance"
-ORDER = (
-    WEIGHT,
-    TEMPERATURE,
-    FLUX,
-    THICKNESS,
-    CLOCK,
-    RATE,
-    SWAPPED,
-    ZERO,
-    SAMPLE,
-    BASELINE,
-    PLACE,
-    SURROUNDINGS,
-    LIMITS,
-)
-"""Causes, the more usual ones first."""
 TENS = (10.0, 0.1)
 FACTORS = (10.0, 0.1, 100.0, 0.01, 1e3, 1e-3, 60.0, 1.0 / 60.0, 4.0, 0.25, 2.0, 0.5)
 """Factors of values: units, minutes for seconds, radius for diameter."""
@@ -60,28 +42,6 @@ BELOW_ZERO = -0.02
 ROOM_K = 293.15
 USUAL_K = (250.0, 450.0)
 """Temperatures of gas and walls that need no explanation."""
-
-
-@dataclass(frozen=True, eq=False)
-class LikelyCause:
-    """A correction of some experiments, and what it means.
-
-    Parameters
-    ----------
-    cause
-        One of `ORDER`.
-    places
-        Names of the experiments that it changes, or the parameter whose limits it widens.
-    words
-        The error in words.
-    change
-        From the case as described to the corrected one.
-    """
-
-    cause: str
-    places: tuple[str, ...]
-    words: str
-    change: Change
 
 
 def possible_corrections(
@@ -102,10 +62,10 @@ def possible_corrections(
     for name in names:
         of = [signal for experiment, signal in outside if experiment == name]
         yield from _of_one(case, name, of, mostly)
-    yield from _weights(case, names)
-    yield from _baselines(case, outside)
-    yield from _places(case, outside)
-    yield from _swaps(case, names)
+    yield from weights(case, names)
+    yield from baselines(case, outside)
+    yield from places(case, outside)
+    yield from swaps(case, names)
 
 
 def _of_one(
@@ -259,116 +219,6 @@ def _samples(
                 "of the sample, or the unit",
                 column_changed(name, alike, "", multiplied(factor)),
             )
-
-
-def _weights(case: RecordedCases, outside: Collection[str]) -> Iterator[LikelyCause]:
-    """Yield that samples described alike have other masses: each then has a density of its own."""
-    groups: dict[str, dict[str, float]] = {}
-    for name, experiment in case.experiments.items():
-        if not isinstance(experiment, SlabExperiment):
-            continue
-        for signal in case.signals(name):
-            if experiment.quantity(signal).name == "mass":
-                column = case.frames[name, signal][experiment.quantity(signal).column]
-                like = experiment.sample.model_dump_json()
-                groups.setdefault(like, {})[name] = float(column.iloc[0])
-    for masses in groups.values():
-        least, most = min(masses.values()), max(masses.values())
-        if 0.0 < UNEQUAL * least <= most and not masses.keys().isdisjoint(outside):
-            yield LikelyCause(
-                WEIGHT,
-                tuple(masses),
-                f"samples described alike weigh {least:.3g} to {most:.3g} kg/m². Give each test "
-                "and repeat its `sample: {density_factor: ...}`, its mass over the mean one",
-                _weighed(masses),
-            )
-
-
-def _weighed(masses: Mapping[str, float]) -> Change:
-    """Return the change of the densities to those of the masses, over the median."""
-    middle = float(np.median(list(masses.values())))
-
-    def change(case: RecordedCases) -> RecordedCases:
-        for name, mass in masses.items():
-            case = part_changed(name, "sample", "density_factor", mass / middle)(case)
-        return case
-
-    return change
-
-
-def _baselines(case: RecordedCases, outside: Sequence[Channel]) -> Iterator[LikelyCause]:
-    """Yield the baseline of an instrument, of all heat flows for which the study gives none."""
-    of = [
-        (name, signal)
-        for name, signal in outside
-        if getattr(case.experiments[name], "baseline", None) == Baseline()
-        and case.experiments[name].quantity(signal).has_sign
-    ]
-    if not of:
-        return
-    names = tuple(dict.fromkeys(name for name, _ in of))
-    yield LikelyCause(
-        BASELINE,
-        names,
-        f"the heat flow of {listed(names)} holds a baseline of the instrument. Subtract it, or "
-        "give `baseline` two parameters",
-        without_baselines(of),
-    )
-
-
-def _places(case: RecordedCases, outside: Sequence[Channel]) -> Iterator[LikelyCause]:
-    """Yield that thermocouples stood between samples and what is behind them, in all tests."""
-    of = [(e, signal) for e, signal in case.frames if _is_behind(case.experiments[e], signal)]
-    if not set(of) & set(outside):
-        return
-    names = tuple(dict.fromkeys(name for name, _ in of))
-    behind = case.experiments[of[0][0]].quantity(of[0][1])
-    yield LikelyCause(
-        PLACE,
-        names,
-        f"the {behind.title} of {listed(names)} is that between the sample and the backing. Its "
-        f"quantity is then {behind.before_backing}, with the number of layers of the sample as "
-        "`layer`",
-        before_backing(of),
-    )
-
-
-def _is_behind(experiment: Experiment, signal: str) -> bool:
-    """Tell whether a signal is taken as the temperature behind a backing."""
-    if not isinstance(experiment, SlabExperiment) or not experiment.sample.backing:
-        return False
-    return experiment.quantity(signal).before_backing != ""
-
-
-def _swaps(case: RecordedCases, names: Sequence[str]) -> Iterator[LikelyCause]:
-    for one, other in combinations(case.experiments, 2):
-        if one not in names and other not in names:
-            continue
-        if not all(_has_own_course(case.experiments[name]) for name in (one, other)):
-            continue
-        shared = [s for s in case.signals(one) if s in case.signals(other)]
-        if not shared or case.experiments[one].kind != case.experiments[other].kind:
-            continue
-        for signals in [shared, *([s] for s in shared if len(shared) > 1)]:
-            of = (
-                ""
-                if signals == shared
-                else f" of the {case.experiments[one].quantity(signals[0]).title}"
-            )
-            yield LikelyCause(
-                SWAPPED,
-                (one, other),
-                f"the files{of} of {one} and {other} are swapped",
-                swapped(one, other, tuple(signals)),
-            )
-
-
-def _has_own_course(experiment: Experiment) -> bool:
-    """Tell whether a record says nothing of the course of its test, so that another may be taken.
-
-    A heated sample that follows the recorded temperature is simulated as its file was recorded.
-    """
-    return not isinstance(experiment, HeatedExperiment) or experiment.program == "nominal"
 
 
 def _off(factor: float) -> str:

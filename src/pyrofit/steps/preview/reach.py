@@ -259,7 +259,7 @@ def reached(value: FloatArray, curves: FloatArray, noise: FloatArray) -> Reached
     noise
         Standard deviation of the noise, shape (points,).
     """
-    finished = curves[np.isfinite(curves).all(axis=1)]
+    finished = _finished(curves)
     if not len(finished):  # with a correction that no set survives
         none = np.zeros_like(value)
         return Reached(value, value, value, none, 1.0, np.full(len(curves), np.inf))
@@ -275,16 +275,15 @@ def reached(value: FloatArray, curves: FloatArray, noise: FloatArray) -> Reached
 def peak_off(value: FloatArray, curves: FloatArray) -> float:
     """Return the factor by which the largest |value| lies beside those of most sets, 1 within.
 
-    Parameters
-    ----------
-    value
-        Measured values, shape (points,).
-    curves
-        Shape (sets, points); those that hold no numbers did not finish.
+    The arguments are those of `reached`.
     """
-    peaks = np.abs(curves[np.isfinite(curves).all(axis=1)]).max(axis=1)
+    peaks = np.abs(_finished(curves)).max(axis=1)
     if not peaks.size:
         return 1.0
     peak = max(float(np.abs(value).max()), 1e-300)
     least, most = np.quantile(peaks, PEAKS)
     return max(float(least) / peak, peak / max(float(most), 1e-300), 1.0)
+
+
+def _finished(curves: FloatArray) -> FloatArray:
+    return curves[np.isfinite(curves).all(axis=1)]
