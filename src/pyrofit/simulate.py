@@ -131,8 +131,9 @@ def simulate_slabs(
     """Simulate such experiments of one material; the curves are listed by experiment, then set.
 
     In as many threads as processes would be idle otherwise. Where the sets are ``led``, all take
-    the cells and time steps of the first one. Its curves are those that it has alone. Differences
-    from it are smooth in the parameters, but the error control is that of the first one.
+    the cells and time steps of the first one, and lose cells and burn out with it. Its curves are
+    those that it has alone. Differences from it are smooth in the parameters, but the error control
+    is that of the first one.
     """
     substance = Substance(material, values, sets)
     return [

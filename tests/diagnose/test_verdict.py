@@ -450,6 +450,25 @@ def test_effect_behind_a_rejected_one_is_not_claimed_where_misfit_is_left(
     assert verdict.kind == "unknown"
 
 
+def test_unknown_beside_misfit_tells_the_test_that_the_leading_effect_fails(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    real = places.trust
+    gains = {"25 kW/m²": 5.0, "held out: one": 3.0, "held out: other": -2.1}
+    monkeypatch.setattr(
+        places,
+        "trust",
+        lambda *of: replace(real(*of), gains=gains, powers=dict.fromkeys(gains, 3.0)),
+    )
+    unknown = np.tile(np.repeat([1.5, -1.5], POINTS // 2), 4)
+    found = searched(planted(k_T=1.0) + unknown, effects=("k_T",), most=1)
+    assert not found.end_lack.adequate
+    verdict = verdict_on(found)
+    assert verdict.kind == "unknown"
+    assert "signals gains +0.9 only; a confirmation needs 2" in verdict.reasons[0]
+    assert verdict.reasons[1].startswith("the residuals exceed the noise")
+
+
 def test_effects_that_leave_only_noise_are_unknown_where_one_of_them_fails() -> None:
     """Taken away, it would leave a misfit that the other explains in part."""
     q = strength_of("c_T")[1]

@@ -10,7 +10,7 @@ from pyrofit.solver.arrays import FloatArray
 
 Curves = Callable[[FloatArray], Sequence[FloatArray | None]]
 """From sets, shape (sets, parameters), to a curve of each; None where a run does not finish. The
-first set leads: where a solver chooses its steps, all take those of the first."""
+first set leads, see `pyrofit.simulate.simulate_slabs`."""
 
 
 class Difference(NamedTuple):

@@ -300,11 +300,19 @@ def _around(
         with_those = [free.index(k) for k in assumed if k in free]
         moved_by = BEYOND * covariance[at, with_those] / np.diag(covariance)[with_those]
         one_rate = i in assumed or bool(np.any(np.abs(moved_by) > reach))
-        bound = limit_of(x)
         estimates.append(
             Estimate(
-                *(name, x, sd, float(more[at]), most[at], noise, wide),
-                *(method, bound, tied, one_rate),
+                name=name,
+                x=x,
+                sd=sd,
+                apparatus=float(more[at]),
+                most=most[at],
+                noise=noise,
+                interval=wide,
+                method=method,
+                bound=limit_of(x),
+                tied=tied,
+                one_rate=one_rate,
             )
         )
     return tuple(estimates), profiles, lowest

@@ -11,7 +11,7 @@ def least_within(
     """Return x of least x^T B x / 2 + g^T x within limits, B symmetric positive definite.
 
     Active sets as of Stark and Parker (1995, Comput. Stat. 10, 129), compiled: a descent asks for
-    many, and arrays of Python take thirty times as long.
+    many, and arrays of NumPy take fifty times as long and more.
 
     Parameters
     ----------

@@ -226,7 +226,7 @@ class Numerics(NamedTuple):
     """[s]."""
     most_steps: int
     led: bool = False
-    """Whether all lanes take the time steps of the first one."""
+    """Whether all lanes take time steps, leave cells and burn out as the first one does."""
 
 
 class Probes(NamedTuple):

@@ -39,8 +39,8 @@ def judge(found: Search, rng: np.random.Generator, processes: int = 1) -> Verdic
         return _without_effects(found)
     context = SearchContext(rng, processes=processes)
     found, without = end_without_superfluous(found, context)
-    failed: list[tuple[str, str]] = []
-    if not found.end_lack.adequate and (part := _partly(found, without, context, failed)):
+    part, failed = (None, []) if found.end_lack.adequate else _partly(found, without, context)
+    if part:
         return part
     findings = findings_of(found, without, context)
     reasons = _reasons(findings)
@@ -49,10 +49,12 @@ def judge(found: Search, rng: np.random.Generator, processes: int = 1) -> Verdic
         found, reasons = with_end(found, findings[0].kept[0].trial, rng), []
         (of_end,) = findings_of(found, without, context)
         findings = (replace(findings[0], instead=of_end.instead),)
-    elif reasons and found.end_lack.adequate and (part := _partly(found, without, context, [])):
-        return part
+    elif reasons and found.end_lack.adequate:
+        part, _ = _partly(found, without, context)
+        if part:
+            return part
     if not found.end_lack.adequate:
-        reasons += [] if reasons else [f"{_title(effect)}: {why}" for effect, why in failed]
+        reasons = reasons or [f"{_title(effect)}: {why}" for effect, why in failed]
         reasons.append("the residuals exceed the noise, with every effect that gains enough")
     of_base = found.rounds[0].lack()
     if reasons and of_base.passes:
@@ -106,32 +108,29 @@ def _reasons(findings: Sequence[Finding]) -> list[str]:
 
 
 def _partly(
-    found: Search,
-    without: Sequence[FittedModel],
-    context: SearchContext,
-    taken_away: list[tuple[str, str]],
-) -> Verdict | None:
-    """Return the verdict on the effects that pass every test, if there are any.
+    found: Search, without: Sequence[FittedModel], context: SearchContext
+) -> tuple[Verdict | None, list[tuple[str, str]]]:
+    """Return the verdict on the effects that pass every test, if any, and why others do not.
 
     Effects that fail a test are taken away one by one, the one that gains least first; the others
     are judged again. They usually explain a part only. None is claimed where all together leave
     nothing but noise: if one of these fails, the others may stand for a missing effect as well.
-    ``taken_away`` gets them, each with its reason.
     """
     all_fit, processes = found.end_lack.adequate, context.processes
+    taken_away: list[tuple[str, str]] = []
     while (failed := _first_failed(found, without, context)) is not None:
         position, reason = failed
         taken_away.append((found.end.effects[position], reason))
         if len(without) == 1:
-            return None
+            return None, taken_away
         found, without = end_without_superfluous(
             with_end(found, without[position], context.rng), context
         )
     findings = findings_of(found, without, context)
     if found.end_lack.adequate:
-        return _explained(found, findings, without, processes)
+        return _explained(found, findings, without, processes), taken_away
     if all_fit or ONE_FLUX in doubts_of(found, findings):
-        return None
+        return None, taken_away
     leading = [finding.kept[0] for finding in findings]
     if not any(judged.trust.outvoted for judged in leading):
         findings = tuple(_with_other_terms(found, findings, without, processes))
@@ -143,7 +142,8 @@ def _partly(
         *_instead(findings),
         *_hardly_agreeing(findings),
     )
-    return Verdict("partly", found, tuple(findings), reasons, suspects, tuple(taken_away))
+    part = Verdict("partly", found, tuple(findings), reasons, suspects, tuple(taken_away))
+    return part, taken_away
 
 
 def _first_failed(
