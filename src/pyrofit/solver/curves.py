@@ -10,7 +10,7 @@ import numpy as np
 from pyrofit.model.signal import Follows
 from pyrofit.solver.arrays import FloatArray, IntArray, Status, Value
 
-_STATUSES = tuple(Status)
+_ENDS = tuple((status, status.finished) for status in Status)
 
 
 @dataclass(frozen=True)
@@ -113,13 +113,11 @@ class Runs(NamedTuple):
 
     def curves(self) -> list[Curves]:
         """Return the sets one by one; a run that did not finish has no signals."""
-        numbers = self.cells, self.steps, self.energy_error, self.mass_error
-        statuses = map(_STATUSES.__getitem__, self.status.tolist())
-        books = zip(*(n.tolist() for n in numbers), strict=True)
+        books = self.cells, self.steps, self.energy_error, self.mass_error
+        numbers = zip(*(book.tolist() for book in books), strict=True)
+        ends = map(_ENDS.__getitem__, self.status.tolist())
+        signals = zip(*self.signals.values(), strict=True)
         return [
-            Curves(status, self._signals(s) if status.finished else {}, *numbers)
-            for s, (status, numbers) in enumerate(zip(statuses, books, strict=True))
+            Curves(end, dict(zip(self.signals, curves, strict=True)) if finished else {}, *of_set)
+            for (end, finished), curves, of_set in zip(ends, signals, numbers, strict=True)
         ]
-
-    def _signals(self, s: int) -> dict[str, FloatArray]:
-        return {name: curve[s] for name, curve in self.signals.items()}

@@ -164,12 +164,15 @@ def _asked(signals: tuple[tuple[str, str, float, int], ...]) -> arrays.Asked:
 def _parts(cells: IntArray, threads: int) -> list[IntArray]:
     """Share out sets, by cells: groups to as many calls as there are threads, others alone."""
     order = np.argsort(cells, kind="stable")
-    groups = [order[i : i + LANES] for i in range(0, order.size, LANES)]
-    together = np.concatenate([order[:0], *(g for g in groups if _fill_lanes(cells[g]))])
-    alone = [g for g in groups if not _fill_lanes(cells[g])]
+    first = np.arange(0, order.size, LANES)
+    sizes = np.diff(first, append=order.size)
+    most = cells[order[first + sizes - 1]]
+    mean = np.add.reduceat(cells[order], first) / sizes
+    grouped = np.repeat((sizes > FEW) & (mean >= FILLED * most), sizes)
+    together, alone = order[grouped], order[~grouped]
     share = LANES * -(-together.size // (LANES * threads))
     parts = [together[i : i + share] for i in range(0, together.size, share or 1)]
-    return parts + [index for g in alone for index in g[:, None]]
+    return parts + list(alone[:, None])
 
 
 def _led(case: Case, led: int) -> Case:
@@ -196,11 +199,6 @@ def _led_parts(sets: int, led: int, threads: int) -> list[IntArray]:
             groups.append(np.append(group, np.repeat(group[-1:], LANES - group.size)))
     share = -(-len(groups) // threads)
     return [np.concatenate(groups[i : i + share]) for i in range(0, len(groups), share)]
-
-
-def _fill_lanes(cells: IntArray) -> bool:
-    """Tell whether sets of ascending numbers of cells are faster side by side."""
-    return cells.size > FEW and bool(cells.mean() >= FILLED * cells[-1])
 
 
 Found = tuple[FloatArray, FloatArray, IntArray]
