@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from pyrofit.errors import DataError
 from pyrofit.show import style
 from pyrofit.show.text import several
 from pyrofit_files import look_picture as picture
@@ -73,7 +74,9 @@ def look(files: str | Path | Sequence[str | Path]) -> Look:
     Raises
     ------
     DataError
-        There is no such file.
+        There is no such file, or something else than names of files is given.
     """
     given = [files] if isinstance(files, str | Path) else files
+    if not isinstance(given, Sequence) or not all(isinstance(path, str | Path) for path in given):
+        raise DataError(f"look: given {files!r}; give the name of a file or folder, or a list")
     return Look(look_at(Path(path) for path in given))

@@ -8,6 +8,7 @@ import pytest
 
 from pyrofit.data.series import Measurement, read_series
 from pyrofit.data.spec import SeriesSpec
+from pyrofit.data.suspect import suspicions
 from pyrofit.errors import DataError
 from pyrofit_files.report import examine_folder
 
@@ -177,3 +178,33 @@ def test_reason_why_a_file_is_unreadable_begins_without_a_comma(tmp_path: Path) 
     path.write_text("0,1\n1,2\n", encoding="utf-8")
     (fault,) = (f for seen in examine_folder(tmp_path) for f in seen.findings)
     assert fault.text.startswith("line 1: the first row holds numbers")
+
+
+def test_blank_before_a_quote_belongs_to_no_name(tmp_path: Path) -> None:
+    rows = "".join(f"{t}, {0.001 * t}\n" for t in range(9))
+    found = read(tmp_path, "mlr", f's, kg/m2/s\n"Time", "MLR"\n{rows}')
+    assert found.frame["mlr_kg_m2_s"].max() == pytest.approx(0.008)
+
+
+@pytest.mark.parametrize("between", ["", "\n"])
+def test_two_rows_of_facts_are_no_table(between: str, tmp_path: Path) -> None:
+    rows = "".join(f"{6 * t};{300 + t};{1.0 - 0.001 * t}\n" for t in range(400))
+    facts = f"Sample mass (mg);Rate (K/min)\n5;10\n{between}"
+    text = f"{facts}Time (s);Temperature (K);Mass fraction (-)\n{rows}"
+    assert len(read(tmp_path, "mass_fraction", text).frame) == 400
+
+
+def test_line_that_is_too_long_is_told_with_its_beginning(tmp_path: Path) -> None:
+    rows = "".join(f"{t},{0.001 * t}\n" for t in range(9))
+    with pytest.raises(DataError, match=r"of 200,?002 characters that begins with '1111.*delete"):
+        read(tmp_path, "mlr", f"Time (s),MLR (kg/m2/s)\n{rows}{'1' * 200_000},1\n")
+
+
+def test_record_in_K_that_starts_warm_is_not_taken_for_degrees_C(tmp_path: Path) -> None:
+    rows = "".join(f"{6 * t},{573.15 + 0.1 * t},{1.0 - 0.001 * t}\n" for t in range(400))
+    for unit, told in (("K", False), ("degC", True)):
+        text = f"Time (s),Temperature ({unit}),Mass fraction (-)\n{rows}"
+        found = read(tmp_path, "mass_fraction", text)
+        assert found.in_K is not told
+        said = suspicions(found.quantity, found.frame.assign(temperature_K=573.15), found.in_K)
+        assert any("If the column is in K" in note for note in said) is told

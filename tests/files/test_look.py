@@ -139,3 +139,9 @@ def test_texts_of_many_panels_neither_overlap_nor_leave_the_picture(tmp_path: Pa
         assert not any(box.overlaps(other) for other in boxes[:i])
     looks = {(line.get_color(), str(line._dash_pattern)) for line in drawn[0].lines}
     assert len(looks) == 8
+
+
+def test_something_else_than_names_of_files_is_refused() -> None:
+    for given in (3, [3], {"a": 1}):
+        with pytest.raises(pf.PyrofitError, match="name of a file"):
+            pf.look(given)  # type: ignore[arg-type]

@@ -9,6 +9,7 @@ import pyrofit as pf
 from pyrofit.data.csvfile import read_table
 from pyrofit.errors import DataError
 from pyrofit.new_study import draft
+from pyrofit.new_study.draft import kinetics_limits
 from pyrofit.new_study.plan import part_of
 from pyrofit.new_study.repeats import grouped_by_names
 
@@ -91,3 +92,19 @@ def test_repeats_of_a_hold_are_one_program_of_four(tmp_path: Path) -> None:
     tests = grouped_by_names(runs)
     assert len(tests) == 4
     assert len(part_of("kinetics", tests).held_out) == 1
+
+
+def test_a_ramp_beside_a_hold_of_its_rate_holds_nothing(tmp_path: Path) -> None:
+    files = [ramp(tmp_path, 10.0), hold(tmp_path / "board_563Kiso.csv", 563.0, 0.4)]
+    study = pf.new_study("board", tga=files)
+    points = {name: e.set_point_K for name, e in study.experiments.items()}
+    assert points == {"board_N2_10K": None, "board_563Kiso": pytest.approx(563.0, abs=0.5)}
+
+
+def test_residue_is_that_of_ramps_and_of_holds_that_are_level(tmp_path: Path) -> None:
+    slow = hold(tmp_path / "board_540Kiso.csv", 540.0, 0.0)  # 0.7 of the mass is left
+    level = hold(tmp_path / "board_620Kiso.csv", 620.0, 0.0)
+    for files in ([slow, level], [slow, ramp(tmp_path, 10.0)]):
+        limits = pf.new_study("board", tga=files).parameters["y"]
+        assert (limits.lower, limits.upper) == pytest.approx((0.1, 0.2), abs=0.003)
+    assert kinetics_limits([draft.read_experiment("tga", slow)]).known_residue is False

@@ -95,3 +95,24 @@ def test_what_is_read_is_right_and_the_rest_is_asked_for(export: Export, tmp_pat
         np.testing.assert_allclose(frame.iloc[:, -1], TRUTH[found.quantity], atol=1e-4)
         if found.of.against_temperature:
             np.testing.assert_allclose(frame["temperature_K"], KELVIN, atol=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("header", "unit", "signal"),
+    [
+        ("SURFACE DENSITY", "kg/m2", "mass"),
+        ("mlr_front", "kg/m2/s", "mlr"),
+        ("BURNING RATE", "kg/m2/s", "mlr"),
+        ("Surface temperature", "K", "front_temperature"),
+    ],
+)
+def test_unit_decides_where_names_leave_it_open(
+    header: str, unit: str, signal: str, tmp_path: Path
+) -> None:
+    values = {"kg/m2": 0.1 * LEFT, "kg/m2/s": 0.01 * PEAK, "K": KELVIN}[unit]
+    rows = "".join(f"{t},{v}\n" for t, v in zip(TIME, values, strict=True))
+    path = tmp_path / "slab.csv"
+    path.write_text(f"s,{unit}\nTime,{header}\n{rows}", encoding="utf-8")
+    found = read_experiment("gasification", path)
+    assert [s.quantity for s in found.signals] == [signal]
+    assert np.allclose(next(iter(found.frames.values())).iloc[:, -1], values)

@@ -883,7 +883,10 @@ def test_heating_rate_is_that_of_the_record_where_the_name_says_another(folder: 
 BAD = {
     "no name": ("1wood --gasification cone_25.csv", "'1wood' is no name; letters, digits and _"),
     "path as name": ("a/b --gasification cone_25.csv", "'a/b' is no name"),
-    "name too long": (f"{'x' * 300} --gasification cone_25.csv", "is no name of a folder (File"),
+    "name too long": (
+        f"{'x' * 300} --gasification cone_25.csv",
+        "has 300 letters, too many for the name of a folder; use at",
+    ),
     "folder exists": ("there --gasification cone_25.csv", "there: exists already and is left"),
     "file of that name": ("cone --gasification cone_25.csv", "cone: exists already and is left"),
     "no such file": ("x --gasification cone_52.csv", "Did you mean 'cone_25.csv'?"),

@@ -35,6 +35,14 @@ MASSES = {
     "Probenmasse: 0,012 g\nLabor: a\n": 1.2e-5,
     "Sample Wt.(mg);6.000\nUser;a\n": 6e-6,
     "[Sample Weight]\t6.000[mg]\n[Data]\n": 6e-6,
+    "Masse : 10,00 mg\nLabor: a\n": 1e-5,
+    "Mass of sample (mg);10.00\nUser;a\n": 1e-5,
+    "Poids initial (mg) : 10.00\nNom : a\n": 1e-5,
+    "board N2 10.00 mg\nCreation Date : 01/02/2025\n": 1e-5,
+    "board, crucible of 85 mg\n10 mg/min\n": None,
+    "board 10 mg\nanother 12 mg\n": None,
+    "Sample mass (mg);Rate (K/min)\n;10\nData\n": None,  # that of the rate
+    "Sample mass (mg);Rate (K/min)\n5;10\nData\n": 5e-6,
     "Sample Mass: 5 mg\nInitial Mass: 6 mg\n": None,  # two values
     "Sample mass: see notes\nRun: 3\n": None,
 }
@@ -180,6 +188,13 @@ def test_area_of_the_file_divides_its_values(line: str, tmp_path: Path) -> None:
     frame = run.frames["heat_release_rate"]
     np.testing.assert_allclose(frame["heat_release_rate_W_m2"], expected, rtol=1e-5)
     assert "sample_area_m2: 0.00884 # of the file" in drafted("x", {"cone": [path]})[0]
+
+
+def test_empty_cell_leaves_values_under_their_keys() -> None:
+    names = ["Flux (kW/m2)", "tig (s)"]
+    assert stated_in([names, ["", "85"]]).flux_kW_m2 is None
+    assert stated_in([names, ["25", "85"]]).flux_kW_m2 == 25.0
+    assert stated_in([["Sample mass", "", "8.2", "mg"]]).mass_kg == 8.2e-6
 
 
 def test_facts_are_not_taken_from_other_words() -> None:

@@ -28,6 +28,7 @@ def written(path: Path, header: str, columns: list[np.ndarray], delimiter: str =
     [
         ("temperature,rate_3,rate_5,rate_10", False),
         ("T [°C],3 K/min,5 K/min,10 K/min", False),
+        ("Temperature (K),Mass% 3K/min,Mass% 5K/min,Mass% 10K/min", False),
         ("Temperature (K),m 3K (%),Temperature (K),m 5K (%),Temperature (K),m 10K (%)", True),
     ],
 )

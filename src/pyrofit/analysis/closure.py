@@ -151,9 +151,9 @@ def _spread(study: Study, released: Mapping[Record, float]) -> list[str]:
             said = f"{names[0]} and {names[1]}: equal samples, released masses {apart:.1f} % apart"
             lines.append(said)
         elif len(names) > 2:
+            farthest = f", those of {least[0]} and {most[0]}" if least[0] != most[0] else ""
             lines.append(
-                f"{len(names)} equal samples: released masses at most {apart:.1f} % apart, those "
-                f"of {least[0]} and {most[0]}"
+                f"{len(names)} equal samples: released masses at most {apart:.1f} % apart{farthest}"
             )
     return lines
 

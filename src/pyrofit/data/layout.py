@@ -55,9 +55,13 @@ def cells_of(path: Path, text: str, delimiter: str) -> list[str]:
     if delimiter == BLANKS:
         return text.split()
     try:
-        return [cell.strip() for cell in next(csv.reader([text], delimiter=delimiter), [])]
+        cells = csv.reader([text], delimiter=delimiter, skipinitialspace=True)
+        return [cell.strip() for cell in next(cells, [])]
     except csv.Error as error:
-        raise DataError(f"{path}: this is not a delimited text file ({error}).") from None
+        line = f"a line of {len(text)} characters that begins with {text[:20]!r}"
+        raise DataError(
+            f"{path}: {line} cannot be split into cells ({error}); correct it, or delete it."
+        ) from None
 
 
 def usual_delimiter(path: Path, raw: Sequence[str]) -> str:
@@ -116,7 +120,8 @@ def _goes_on(rows: Sequence[FileLine]) -> bool:
     """Tell whether most of some lines are rows of numbers, and not keys with values."""
     if not is_numeral(next((cell for cell in rows[0].cells if cell), "")):
         return False
-    return 2 * sum(_is_row(row.cells) for row in rows) > len(rows)
+    width = len(trim(rows[0].cells))
+    return 2 * sum(_is_row(r.cells) and len(trim(r.cells)) == width for r in rows) > len(rows)
 
 
 def _refuse(path: Path, lines: Sequence[FileLine], count: int) -> None:

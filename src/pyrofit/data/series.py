@@ -42,6 +42,8 @@ class Measurement:
         The meaning of the uncertainty.
     notes : tuple of str
         The reader's notes: omissions, computations and remarks.
+    in_K : bool
+        Whether its temperatures are in K in the file.
     """
 
     quantity: Quantity
@@ -50,6 +52,7 @@ class Measurement:
     sha256: str
     uncertainty_meaning: str
     notes: tuple[str, ...]
+    in_K: bool = False
 
 
 def read_series(spec: SeriesSpec, read: Callable[[Path], FileTable] = read_table) -> Measurement:
@@ -132,7 +135,11 @@ def read_series(spec: SeriesSpec, read: Callable[[Path], FileTable] = read_table
     frame, thinned = _thinned(frame)
     notes += thinned
     digest = sha256(spec.path)
-    return Measurement(spec.of, frame, spec.path, digest, spec.uncertainty_meaning, tuple(notes))
+    role = "temperature" if spec.of.against_temperature else "value"
+    given = spec.units.get(role) or (table.units[headers[role]] if role in headers else None)
+    in_K = unit_key(given or "") == "k"
+    meaning = spec.uncertainty_meaning
+    return Measurement(spec.of, frame, spec.path, digest, meaning, tuple(notes), in_K)
 
 
 def _absent(table: FileTable, names: Sequence[str]) -> list[str]:

@@ -16,8 +16,9 @@ _MASS = re.compile(
             r"(?:(?:sample|initial|specimen|test)\s*)?(?:mass|weight|wt\.?)",
             r"(?:(?:sample|initial|specimen|test)\s*)?size",
             "probenmasse|einwaage|anfangsmasse",
-            r"masse\s*(?:initiale|(?:de\s+)?l?.?.?chantillon)",
-            r"masa\s*inicial|massa\s*iniziale",
+            r"(?:mass|weight)\s*of\s*(?:the\s*)?(?:sample|specimen)",
+            r"masse(?:\s*(?:initiale|(?:de\s+)?l?.?.?chantillon))?|poids(?:\s*initial)?",
+            r"mas+a(?:\s*ini[cz]iale?)?|peso(?:\s*ini[cz]iale?)?|gewicht",
         )
     ),
     re.IGNORECASE,
@@ -51,6 +52,10 @@ _AREA = re.compile(
 _EXO = re.compile(r"exo(?:therm(?:ic|al)?)?", re.IGNORECASE)
 _UPWARD = re.compile(
     r"(?<![a-z])(exo|endo)(?:therm(?:ic|al)?)?[\s_-]*(up|down)(?![a-z])", re.IGNORECASE
+)
+_ANY_MASS = re.compile(rf"(?<![\w.,]){_NUMBER}\s*mg(?![\w/])")
+_NOT_OF_SAMPLE = re.compile(
+    "crucible|pan|tiegel|creuset|reference|calibr|resolution|balance|molar|range|offset", re.I
 )
 _UNIT = re.compile(r"[\[(]([^\[\]]*)[\])]$|/\s*(\S+)$")
 
@@ -89,7 +94,8 @@ class Stated:
 def stated_in(lines: Sequence[Sequence[str]]) -> Stated:
     """Return the facts of lines of cells above a table; one that stands in two ways is left out.
 
-    A fact stands as key and value in one line, or as a key above its value.
+    A fact stands as key and value in one line, or as a key above its value. Where no key tells the
+    mass of the sample, the only mass in mg counts, in a title for example.
 
     >>> stated_in([["#SAMPLE MASS /mg:", "5.000"], ["#EXO:", "+1"], ["Purge Gas", "air"]])
     Stated(mass_kg=5e-06, exothermic_up=True, gas='air', flux_kW_m2=None, then_gas='', then_gas_s=None, area_m2=None)
@@ -120,6 +126,7 @@ def stated_in(lines: Sequence[Sequence[str]]) -> Stated:
             if (up := _exothermic_up(cell, value)) is not None:
                 signs.add(up)
     found = Stated()
+    masses = masses or _only_mass(lines[:_FIRST])
     if len(masses) == 1:
         found = replace(found, mass_kg=masses.pop())
     if len(areas) == 1:
@@ -138,10 +145,20 @@ def stated_in(lines: Sequence[Sequence[str]]) -> Stated:
 
 
 def _split(row: Sequence[str]) -> list[str]:
-    """Split key and value that a colon or a sign of equality separates."""
+    """Split key and value that a colon or a sign of equality separates; empty cells stay."""
     return [
-        part.strip(' "#') for cell in row for part in re.split(r"\s*[:=]\s+|\s*[:=]$", cell) if part
+        part.strip(' "#')
+        for cell in row
+        for part in re.split(r"\s*[:=]\s+|\s*[:=]$", cell)
+        if part or not cell
     ]
+
+
+def _only_mass(lines: Sequence[Sequence[str]]) -> set[float]:
+    """Return the masses in mg that lines name, but for those of other things than the sample."""
+    texts = [text for line in lines if not _NOT_OF_SAMPLE.search(text := " ".join(line))]
+    found = (match[0] for text in texts for match in _ANY_MASS.finditer(text))
+    return {mass for text in found for mass in _number(text, "", "mass")}
 
 
 def _key(cell: str) -> tuple[str, str]:
@@ -155,12 +172,11 @@ def _key(cell: str) -> tuple[str, str]:
 
 def _value(rows: Sequence[Sequence[str]], i: int, k: int) -> tuple[str, str]:
     """Return the cell of a value, and the one behind it, which may be its unit."""
-    row = rows[i]
     below = rows[i + 1] if i + 1 < len(rows) else []
-    beside = row[k + 1] if k + 1 < len(row) else ""
+    beside, behind, *_ = [*filter(None, rows[i][k + 1 :]), "", ""]
     if not re.match(_NUMBER, beside) and k < len(below) and re.fullmatch(_NUMBER, below[k]):
         return below[k], ""
-    return beside, row[k + 2].strip("[]() ") if k + 2 < len(row) else ""
+    return beside, behind.strip("[]() ")
 
 
 def _number(value: str, unit: str, kind: str) -> set[float]:

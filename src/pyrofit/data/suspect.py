@@ -38,7 +38,7 @@ _GAP, _GAP_SHARE = 5.0, 0.02
 """A gap is this many usual long steps, and this share of the record."""
 
 
-def suspicions(quantity: Quantity, frame: pd.DataFrame) -> list[str]:
+def suspicions(quantity: Quantity, frame: pd.DataFrame, in_K: bool = False) -> list[str]:
     """Return notes on what is suspect in a record, each with the way out.
 
     Parameters
@@ -47,6 +47,8 @@ def suspicions(quantity: Quantity, frame: pd.DataFrame) -> list[str]:
         The measured quantity.
     frame
         The series in SI units, as `pyrofit.data.series.read_series` returns it.
+    in_K
+        Whether its temperatures are in K in the file.
 
     Examples
     --------
@@ -57,7 +59,8 @@ def suspicions(quantity: Quantity, frame: pd.DataFrame) -> list[str]:
     'the mass falls by no more than 0 %'
     """
     checks: tuple[Callable[[Quantity, pd.DataFrame], str], ...] = (
-        _start,
+        _cold,
+        *(() if in_K else (_warm,)),
         _rate,
         _mass,
         _jumps,
@@ -76,22 +79,32 @@ def _temperature(quantity: Quantity, frame: pd.DataFrame) -> FloatArray | None:
     return frame[quantity.column].to_numpy(float) if quantity.is_temperature else None
 
 
-def _start(quantity: Quantity, frame: pd.DataFrame) -> str:
-    """Find a record in degrees C that is taken for K, or in K that is taken for degrees C."""
+def _cold(quantity: Quantity, frame: pd.DataFrame) -> str:
+    """Find a record in degrees C that is taken for K."""
+    temperature = _temperature(quantity, frame)
+    if temperature is None or temperature[0] >= COLD_K:
+        return ""
+    return (
+        f"it starts at {temperature[0]:.0f} K, below room temperature. If the column is in degrees "
+        f"C, give `units: {{{_role(quantity)}: degC}}`"
+    )
+
+
+def _role(quantity: Quantity) -> str:
+    """Return the role of the column of temperatures."""
+    return "temperature" if quantity.against_temperature else "value"
+
+
+def _warm(quantity: Quantity, frame: pd.DataFrame) -> str:
+    """Find a record in K that is taken for degrees C."""
     temperature = _temperature(quantity, frame)
     if temperature is None:
         return ""
-    role = "temperature" if quantity.against_temperature else "value"
     first = float(temperature[0])
-    if first < COLD_K:
-        return (
-            f"it starts at {first:.0f} K, below room temperature. If the column is in degrees C, "
-            f"give `units: {{{role}: degC}}`"
-        )
     if ROOM_K[0] <= first - ICE_POINT_K <= ROOM_K[1]:
         return (
             f"it starts at {first:.0f} K. If the column is in K, so that it starts at "
-            f"{first - ICE_POINT_K:.0f} K, give `units: {{{role}: K}}`"
+            f"{first - ICE_POINT_K:.0f} K, give `units: {{{_role(quantity)}: K}}`"
         )
     return ""
 

@@ -93,6 +93,8 @@ class Loss:
         Temperatures [K] of an eighth, half and seven eighths of the loss without the moisture.
     record
         Times [s], temperatures [K] and masses, shape (n,) each.
+    held
+        Whether its temperature is held.
     """
 
     temperature_K: float
@@ -100,6 +102,7 @@ class Loss:
     moisture: float = 0.0
     parts_K: tuple[float, float, float] | None = None
     record: tuple[FloatArray, FloatArray, FloatArray] | None = None
+    held: bool = False
 
 
 @dataclass(frozen=True)

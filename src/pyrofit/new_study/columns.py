@@ -153,6 +153,7 @@ def _signals(
         if is_stated_change(table, name):
             usual = [q.name for q in quantities if q.scales[0] == "fraction" and "mass" in q.scales]
         owners = usual or [q.name for q in quantities if may_be(name, q)]
+        owners = _in_their_units(table.units[name], owners)
         if len(owners) == 1:
             claims.setdefault(owners[0], []).append(name)
         elif owners:
@@ -171,6 +172,14 @@ def _signals(
         other = f"may be {quantity.name} as well; name it in the study where it is needed"
         left |= {name: other for name in names if name not in chosen}
     return signals, left
+
+
+def _in_their_units(unit: str | None, owners: list[str]) -> list[str]:
+    """Return the quantities that a column's unit, if it is known, may be of."""
+    if not kind_of_unit(unit or "", tuple(SCALES)):
+        return owners
+    of = known_quantities()
+    return [name for name in owners if kind_of_unit(unit or "", of[name].scales)]
 
 
 def _unit_one(table: FileTable, name: str) -> str:

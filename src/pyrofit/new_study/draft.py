@@ -255,7 +255,10 @@ def kinetics_limits(records: Iterable[MeasuredFile]) -> KineticsDraft:
     masses = [loss.record for loss in losses if loss.record is not None]
     half = [loss.temperature_K for loss in losses]
     lower, upper = 5.0 * math.floor((min(half) - 150.0) / 5.0), 5.0 * math.ceil(max(half) / 5.0)
-    rests = [loss.residue for loss in losses if loss.residue is not None]
+    known = [loss for loss in losses if loss.residue is not None]
+    # A temperature that is held may be too low for the last reaction.
+    ramps = [loss for loss in known if not loss.held] or known
+    rests = [loss.residue for loss in ramps if loss.residue is not None]
     residue = float(np.mean(rests)) if rests else KineticsDraft.residue
     return KineticsDraft(
         max(lower, 300.0),

@@ -187,11 +187,18 @@ def _written(kind: str, table: FileTable, test: PartOfTable, folder: Path) -> Pa
         per_K = 5.0 / 9.0 if "F" in (unit or "") else 1.0
         frame["Time (s)"] = (T - T[0]) * per_K * 60.0 / test.rate_K_min
     for new, name in test.columns.items():
-        frame[_header(new, table.units[name])] = columns[new][rows]
+        frame[_header(new, _unit_of(kind, table, name))] = columns[new][rows]
     ending = {"kinetics": "K", "imp": "kW"}[KINDS[kind].stage] if test.how == "unit" else ""
     path = folder / f"{table.path.stem}_{test.number:g}{ending}.csv"
     write_csv(path, pd.DataFrame(frame))
     return path
+
+
+def _unit_of(kind: str, table: FileTable, name: str) -> str | None:
+    """Return the unit of a column; that of a heating rate in its name is none."""
+    unit, label = table.units[name], label_of_header(kind, name)
+    of_rate = unit and label is not None and unit in name and unit not in label.rest
+    return None if of_rate else unit
 
 
 def _header(name: str, unit: str | None) -> str:

@@ -9,6 +9,7 @@ from tempfile import TemporaryDirectory
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from jinja2.loaders import ChoiceLoader
 
+from pyrofit.config.check.study import MOST_LETTERS
 from pyrofit.data.spreadsheet import is_spreadsheet
 from pyrofit.data.text_file import read_text
 from pyrofit.errors import DataError, StudyError
@@ -326,15 +327,16 @@ def _check_name(name: str) -> None:
             f"'{name}' is no name; letters, digits and _ make one, a letter first, as my_wood. "
             "The study is made in the current folder"
         )
+    if len(name) > MOST_LETTERS:
+        raise StudyError(
+            f"'{name[:20]}...' has {len(name)} letters, too many for the name of a folder; use at "
+            f"most {MOST_LETTERS}"
+        )
 
 
 def _check(name: str, folder: Path, files: Files) -> None:
     _check_name(name)
-    try:
-        there = folder.exists()
-    except OSError as error:
-        raise StudyError(f"'{name}' is no name of a folder ({error.strerror})") from None
-    if there:
+    if folder.exists():
         raise StudyError(
             f"{folder}: exists already and is left as it is; choose another name, or move it away"
         )

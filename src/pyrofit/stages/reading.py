@@ -179,7 +179,7 @@ def _read(experiment: Experiment, label: str, read: Callable[[Path], FileTable])
         source=signal.file,
         sha256=found.sha256,
         uncertainty=found.uncertainty_meaning,
-        notes=[*found.notes, *suspicions(experiment.quantity(label), frame)],
+        notes=[*found.notes, *suspicions(found.quantity, frame, found.in_K)],
     )
     return frame, about
 

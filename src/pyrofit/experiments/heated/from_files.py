@@ -23,7 +23,7 @@ CHAR = 0.1
 """Residue above which a solid chars."""
 AHEAD = 4.0
 """Multiple of the loss in that last tenth that may still come. Char is left if more than `CHAR`
-remains then."""
+remains then. At a temperature that is held all of it may come."""
 LEVEL = 0.01
 """Share of the loss of mass above the end up to which a record counts as level."""
 DRY_K, REACTS_K = 420.0, 470.0
@@ -104,7 +104,9 @@ def mass_loss(frames: Frames) -> Loss | None:
         return None
     late = mass[9 * mass.size // 10]
     lost_late = late - float(np.median(mass[-5:]))
-    goes_on = lost_late > STILL * (mass[0] - rest) and rest - AHEAD * lost_late < CHAR
+    is_held = held({"mass_fraction": frame})["set_point_K"] is not None
+    slow = rest - AHEAD * lost_late >= CHAR and not is_held  # char that still loses some mass
+    goes_on = lost_late > STILL * (mass[0] - rest) and not slow
     half = float(temperature[below[0]])
     dried = int(np.argmax(temperature >= DRY_K)) if half > REACTS_K else 0
     dry = float(np.median(mass[max(dried - 2, 0) : dried + 3])) if dried else float(mass[0])
@@ -113,4 +115,5 @@ def mass_loss(frames: Frames) -> Loss | None:
     )
     moisture = max(1.0 - dry / float(mass[0]), 0.0)
     record = frame["time_s"].to_numpy(), temperature, mass
-    return Loss(half, None if goes_on else rest, moisture, (parts[0], parts[1], parts[2]), record)
+    known = None if goes_on else rest
+    return Loss(half, known, moisture, (parts[0], parts[1], parts[2]), record, is_held)
