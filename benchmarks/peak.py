@@ -3,8 +3,8 @@
 import numpy as np
 from case import seconds
 
+from pyrofit.compiled.jit import entry
 from pyrofit.solver.kernels.functions import fma
-from pyrofit.solver.kernels.jit import entry
 from pyrofit.solver.kernels.lanes import in_lanes
 from pyrofit.solver.run import LANES
 

@@ -80,7 +80,7 @@ def test_cache_that_cannot_be_written_is_an_error(
 ) -> None:
     (tmp_path / "file").touch()
     places = [tmp_path / "file" / "a", tmp_path / "file" / "b"]
-    monkeypatch.setattr("pyrofit.solver.kernels.cache.folders", lambda: places)
+    monkeypatch.setattr("pyrofit.compiled.cache.folders", lambda: places)
     found = only(machine.cache, Situation(None, tmp_path, 1))
     assert found.level == "error"
     assert f"{places[1]} (Not a directory)" in found.text

@@ -69,9 +69,11 @@ def test_functions_near_and_far_from_zero() -> None:
 
 
 def test_function_of_a_number_is_that_of_an_array() -> None:
-    x = random(50)
+    x = np.concatenate([random(50), 200.0 * random(500), [-745.2, 709.79, 720.0, -np.inf]])
     assert [functions.exp(v) for v in x.tolist()] == functions.exp(x).tolist()
-    assert functions.exp(x.reshape(5, 10)).shape == (5, 10)
+    y = np.concatenate([functions.exp(x), [5e-324]])
+    assert [functions.log(v) for v in y.tolist()] == functions.log(y).tolist()
+    assert functions.exp(x[:50].reshape(5, 10)).shape == (5, 10)
 
 
 def test_geometric_has_one_ratio_and_exact_ends() -> None:
@@ -92,6 +94,34 @@ def test_product_is_that_of_matrices(one: tuple[int, ...], other: tuple[int, ...
     assert linear.product(random(5, 4, 3), random(3)) == pytest.approx(random(5, 4, 3) @ random(3))
     with pytest.raises(ValueError, match="broadcast"):
         linear.product(a, np.ones(7))
+
+
+LAYOUTS = {
+    "rows": np.ascontiguousarray,
+    "columns": np.asfortranarray,
+    "part": lambda a: np.pad(a, 2)[2:-2, 2:-2],
+    "reversed": lambda a: a[::-1, ::-1].copy()[::-1, ::-1],
+}
+"""Ways in which a matrix may lie in memory."""
+
+
+@pytest.mark.parametrize("first", LAYOUTS)
+@pytest.mark.parametrize("second", LAYOUTS)
+@pytest.mark.parametrize(("m", "i", "n"), [(23, 41, 18), (1, 3000, 1), (3, 900, 1), (1, 90, 30)])
+def test_large_product_has_the_sums_of_einsum(
+    first: str, second: str, m: int, i: int, n: int
+) -> None:
+    a, b = LAYOUTS[first](random(m, i)), LAYOUTS[second](random(i, n, seed=1))
+    found, expected = linear.product(a, b), np.einsum("ki,ij->kj", a, b)
+    assert np.array_equal(found, expected)
+    # The next sum depends on it.
+    assert found.flags.f_contiguous == expected.flags.f_contiguous
+    assert np.array_equal(linear.gram(b), np.einsum("ki,ij->kj", b.T, b))
+
+
+def test_matrices_that_do_not_fit_have_no_product() -> None:
+    with pytest.raises(ValueError, match="no product"):
+        linear.product(random(40, 50), random(40, 30))
 
 
 @pytest.mark.parametrize("n", [1, 2, 30, 200])

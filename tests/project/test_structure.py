@@ -18,6 +18,7 @@ SOURCE = ROOT / "src" / "pyrofit"
 ORDER = [
     {
         "errors",
+        "compiled",
         "constants",
         "numerics",
         "discovery",
@@ -311,7 +312,12 @@ def test_costs_know_nothing_of_models() -> None:
 def test_only_kernels_import_numba() -> None:
     found = [p for p in modules() if "numba" in outside(p)]
     assert found
-    assert all(name.startswith("solver/kernels/") for name in names_of(found))
+    assert all(is_compiled(name) for name in names_of(found))
+
+
+def is_compiled(name: str) -> bool:
+    """Tell whether a file holds compiled functions, or compiles them."""
+    return name.startswith(("compiled/", "numerics/kernels/", "solver/kernels/"))
 
 
 def test_planning_the_workflow_loads_no_optimiser_and_draws_nothing() -> None:
@@ -344,13 +350,12 @@ def test_only_the_lanes_are_compiled_by_hand() -> None:
 
 
 def test_kernels_import_nothing_but_arrays() -> None:
+    for path in (SOURCE / "numerics" / "kernels").glob("*.py"):
+        assert own(path) <= {"compiled"}, path.name
+        assert outside(path) <= {"pyrofit", "numpy"}, path.name
     for path in (SOURCE / "solver" / "kernels").glob("*.py"):
-        assert own(path) <= {"solver", "constants"}, path.name
+        assert own(path) <= {"compiled", "solver", "constants"}, path.name
         allowed = {"pyrofit", "numpy", "numba", "math", "typing"}
-        if path.name == "__init__.py":
-            allowed |= {"os"}
-        if path.name == "cache.py":  # keeps them on disk, computes nothing
-            continue
         if path.name in ("functions.py", "lane_types.py", "lanes.py"):
             allowed |= {"collections", "llvmlite", "operator"}
         assert outside(path) <= allowed, path.name
@@ -414,7 +419,7 @@ def depends_on_the_processor(node: ast.AST) -> bool:
 def test_results_do_not_depend_on_the_processor() -> None:
     for path in modules():
         name = name_of(path)
-        if name.startswith("solver/kernels/"):
+        if is_compiled(name):
             continue  # compiled, in the order that they state
         for node in parsed(path):
             text = ast.unparse(node) if depends_on_the_processor(node) else ""
@@ -434,7 +439,7 @@ def test_powers_of_arrays_are_products_or_of_numerics() -> None:
                 right = node.right if isinstance(node, ast.BinOp) else node.value
                 if not (isinstance(right, ast.Constant) and right.value in (2, 0.5)):
                     found.add(name)
-    assert {n for n in found if not n.startswith("solver/kernels/")} <= set(NUMBERS_TO_A_POWER)
+    assert {n for n in found if not is_compiled(n)} <= set(NUMBERS_TO_A_POWER)
 
 
 def test_tests_import_no_other_test_and_no_private_name() -> None:

@@ -15,7 +15,7 @@ import psutil
 import yaml
 
 ROOT = Path(__file__).parents[2]
-KERNELS = Path("src/pyrofit/solver/kernels/__pycache__")
+KERNELS = Path("src/pyrofit/compiled/__pycache__")
 SCORES = "results/tiny/validation/scores.csv"
 FIT = "results/tiny/kinetics/fit.json"
 COSTS = ("RMSE", "RANGE")

@@ -58,7 +58,7 @@ _INSTALL = "`make .venv/installed` installs the locked versions"
 
 def cache(situation: Situation) -> Iterator[ReadyLine]:
     """Try to write in the folders of compiled code."""
-    from pyrofit.solver.kernels.cache import folders
+    from pyrofit.compiled.cache import folders
 
     wrong = {folder: writable(folder) for folder in folders()}
     for folder, reason in wrong.items():

@@ -28,7 +28,7 @@ def least_within(
     >>> least_within(np.eye(2), -np.ones(2), np.zeros(2), np.array([0.5, 5.0])).tolist()
     [0.5, 1.0]
     """
-    from pyrofit.solver.kernels.quadratic import least_within as compiled
+    from pyrofit.numerics.kernels.quadratic import least_within as compiled
 
     x, definite = compiled(*map(np.ascontiguousarray, (square, slope, low, high)))
     if not definite:

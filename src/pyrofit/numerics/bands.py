@@ -38,10 +38,7 @@ def cholesky(lags: tuple[float, ...], n: int) -> Floats:
 
 def solve_lower(factor: Floats, b: Floats) -> Floats:
     """Return x of L x = b for L of `cholesky`, b of shape (n,) or (n, k)."""
-    # Numbers of Python are faster than arrays of one number each.
-    rows = b.tolist() if b.ndim == 1 else list(b)
-    for i, (own, *before) in enumerate(factor.tolist()):
-        for k, value in enumerate(before[:i], start=1):
-            rows[i] = rows[i] - value * rows[i - k]
-        rows[i] = rows[i] / own
-    return np.array(rows, dtype=np.float64).reshape(b.shape)
+    from pyrofit.numerics.kernels import matrices
+
+    x = matrices.solve_band(factor, np.ascontiguousarray(b.reshape(len(b), -1), dtype=np.float64))
+    return np.asarray(x.reshape(b.shape))

@@ -1,8 +1,8 @@
 """Products and factors of small matrices, the same to the last bit on every processor.
 
-BLAS and LAPACK choose their code by the processor. Here one index runs in Python, the others in
-`np.einsum` and in products of arrays. Matrices have up to some hundred rows and columns; larger
-ones take long.
+BLAS and LAPACK choose their code by the processor. Here loops are compiled, or one index runs in
+Python and the others in `np.einsum` and in products of arrays. Matrices have up to some hundred
+columns; larger ones take long.
 """
 
 import math
@@ -18,6 +18,10 @@ _SWEEPS = 40
 _EPS = float(np.finfo(float).eps)
 _FEW = 24
 """Rows up to which a system of equations is solved row by row in Python."""
+_LARGE = 2000
+"""Products of numbers in a product of matrices from which compiled loops are faster."""
+_NEXT = 8
+"""Distance in bytes of neighbours in memory."""
 _SMALL = 1e-140
 """Squares of smaller numbers lose digits."""
 
@@ -38,17 +42,49 @@ def product(first: Any, *others: Any) -> Floats:
     """
     found = np.asarray(first)
     for other in others:
-        right = np.asarray(other)
-        of_row = "i" if found.ndim == 1 else "...i"
-        of_column = "i" if right.ndim == 1 else "ij"
-        kept = ("" if found.ndim == 1 else "...") + of_column[1:]
-        found = np.asarray(np.einsum(f"{of_row},{of_column}->{kept}", found, right))
+        found = _product(found, np.asarray(other))
     return found
+
+
+def _product(left: Floats, right: Floats) -> Floats:
+    """Return the product of two of them: of large ones compiled, with the sums of `np.einsum`."""
+    a = left if left.ndim > 1 else left[None]
+    b = right if right.ndim > 1 else right[:, None]
+    if a.ndim > 2 or a.size * b.shape[1] < _LARGE or not (_is_plain(a) and _is_plain(b)):
+        of_row = "i" if left.ndim == 1 else "...i"
+        of_column = "i" if right.ndim == 1 else "ij"
+        kept = ("" if left.ndim == 1 else "...") + of_column[1:]
+        return np.asarray(np.einsum(f"{of_row},{of_column}->{kept}", left, right))
+    if a.shape[1] != b.shape[0]:
+        raise ValueError(f"matrices of shapes {left.shape} and {right.shape} have no product")
+    from pyrofit.numerics.kernels import matrices
+
+    plain = np.ascontiguousarray
+    if a.strides[1] == b.strides[0] == _NEXT:
+        found = matrices.rows_by_rows(plain(a), plain(b.T))
+    elif a.strides[0] < a.strides[1]:
+        found = matrices.columns_by_columns(plain(a.T), plain(b))
+        # The next product adds along what is contiguous.
+        found = found if b.strides[0] > b.strides[1] else np.asfortranarray(found)
+    else:
+        found = matrices.rows_by_columns(plain(a), plain(b))
+    return np.asarray(found.reshape(left.shape[:-1] + right.shape[1:], order="A"))
+
+
+def _is_plain(a: Floats) -> bool:
+    """Tell whether a matrix holds floats, its rows and columns in ascending order."""
+    return a.dtype == np.float64 and min(a.strides) > 0
 
 
 def gram(a: Floats) -> Floats:
     """Return A^T A of shape (columns, columns)."""
-    return product(a.T, a)
+    if a.shape[1] < 2 or a.size * a.shape[1] < _LARGE or not _is_plain(a):
+        return product(a.T, a)
+    if a.strides[0] < a.strides[1]:  # sums go along its columns
+        return product(a.T, a)
+    from pyrofit.numerics.kernels import matrices
+
+    return np.asarray(matrices.gram(np.ascontiguousarray(a)))
 
 
 def norm(a: Floats) -> float:
@@ -77,21 +113,27 @@ def cholesky(a: Floats) -> Floats:
     numpy.linalg.LinAlgError
         The matrix is not positive definite.
     """
-    left = np.tril(np.asarray(a, dtype=np.float64))
-    for k in range(len(left)):
-        column = left[k:, k] - product(left[k:, :k], left[k, :k])
-        if not column[0] > 0.0:
-            raise np.linalg.LinAlgError("Matrix is not positive definite")
-        left[k:, k] = column / np.sqrt(column[0])
-    return left
+    from pyrofit.numerics.kernels import matrices
+
+    left, definite = matrices.cholesky(np.ascontiguousarray(a, dtype=np.float64))
+    if not definite:
+        raise np.linalg.LinAlgError("Matrix is not positive definite")
+    return np.asarray(left)
 
 
 def solve_lower(left: Floats, b: Floats) -> Floats:
     """Return x of L x = b; L a lower triangle, b of shape (n,) or (n, k)."""
+    from pyrofit.numerics.kernels import matrices
+
     x = np.array(b, dtype=np.float64)
-    for k in range(len(x)):
-        x[k] = (x[k] - product(left[k, :k], x[:k])) / left[k, k]
-    return x
+    columns = x if x.ndim > 1 else x[:, None]
+    apart = left.strides[1] == columns.strides[0] == _NEXT
+    of_columns = np.ascontiguousarray(columns)
+    found = matrices.solve_lower(np.ascontiguousarray(left), of_columns, apart)
+    found = found.T if apart else found
+    if x.ndim == 1:
+        return np.ascontiguousarray(found[:, 0])
+    return np.asarray(found, order="F" if x.flags.f_contiguous else "C")
 
 
 def solve_upper(right: Floats, b: Floats) -> Floats:
@@ -185,23 +227,12 @@ def qr(a: Floats) -> tuple[Floats, Floats]:
 
     Shapes (m, k) and (k, n) of A of shape (m, n), k = min(m, n); by Householder's reflections.
     """
+    from pyrofit.numerics.kernels import matrices
+
     rest = np.array(a, dtype=np.float64)
-    rows, columns = rest.shape
-    mirrors = []
-    for k in range(min(rows, columns)):
-        v = rest[k:, k].copy()
-        largest = float(np.max(np.abs(v)))
-        if largest < _SMALL:
-            v /= largest or 1.0
-        size = norm(v)
-        v[0] += np.copysign(size, v[0])
-        double = 2.0 / dot(v, v) if size > 0.0 else 0.0
-        rest[k:, k:] -= (double * v)[:, None] * product(v, rest[k:, k:])
-        mirrors.append((double, v))
-    basis = np.eye(rows, min(rows, columns))
-    for k, (double, v) in reversed(list(enumerate(mirrors))):
-        basis[k:, k:] -= (double * v)[:, None] * product(v, basis[k:, k:])
-    return basis, np.triu(rest[: min(rows, columns)])
+    apart = rest.strides[0] == _NEXT
+    basis, rest = matrices.qr(np.ascontiguousarray(rest), apart, _SMALL)
+    return basis, np.triu(rest)
 
 
 def svd(a: Floats) -> tuple[Floats, Floats, Floats]:

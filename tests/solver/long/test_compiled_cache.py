@@ -166,12 +166,11 @@ def test_folder_that_cannot_be_written_costs_time_and_is_told(of_another_user: P
 def test_second_folder_serves_where_the_first_cannot_be_written(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from pyrofit.solver.kernels import cache as compiled
+    from pyrofit.compiled import cache as compiled
 
     (tmp_path / "first").touch()
     folders = [tmp_path / "first" / "a", tmp_path / "second"]
-    monkeypatch.setattr(compiled, "folders", lambda: folders)
-    compiled._save("tga-0", "processor", b"code")
+    compiled._save(folders, "tga-0", "processor", b"code")
     assert [path.parent for path in codes(tmp_path)] == [folders[1] / "processor"]
 
 
@@ -201,13 +200,13 @@ def test_damaged_file_is_compiled_anew(tmp_path: Path) -> None:
 
 
 def test_code_without_a_lock_is_right(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from pyrofit.solver.kernels import cache as compiled
+    from pyrofit.compiled import cache as compiled
 
     monkeypatch.setattr(compiled, "fcntl", None)
-    monkeypatch.setattr(compiled, "folders", lambda: [tmp_path])
+    monkeypatch.setattr(compiled, "folders", lambda package: [tmp_path])
     kept = compiled.CompiledFiles(test_damaged_file_is_compiled_anew)
     assert not kept._wait_for_lock("tga-0", "processor")
-    compiled._save("tga-0", "processor", b"one")
-    compiled._save("tga-0", "processor", b"other")
+    compiled._save([tmp_path], "tga-0", "processor", b"one")
+    compiled._save([tmp_path], "tga-0", "processor", b"other")
     assert codes(tmp_path)[0].read_bytes()[32:] == b"other"
     kept._unlock()

@@ -3,9 +3,9 @@
 import math
 from typing import NamedTuple
 
+from pyrofit.compiled.jit import inner
 from pyrofit.solver.arrays import Number
 from pyrofit.solver.kernels.functions import root, whole
-from pyrofit.solver.kernels.jit import inner
 from pyrofit.solver.kernels.lanes import where
 from pyrofit.solver.kernels.schedule import end_of, jumps, piece_of
 

@@ -1,8 +1,8 @@
 """Properties and reaction rates of single cells."""
 
+from pyrofit.compiled.jit import inner, live
 from pyrofit.solver.kernels import row
 from pyrofit.solver.kernels.functions import exp_of_negative, fma, nearly_inverse
-from pyrofit.solver.kernels.jit import inner, live
 from pyrofit.solver.kernels.lanes import in_lane, where
 from pyrofit.solver.kernels.oxygen import is_of_oxygen
 from pyrofit.solver.kernels.reactions import (
@@ -14,7 +14,7 @@ from pyrofit.solver.kernels.reactions import (
     react,
     remaining,
 )
-from pyrofit.solver.kernels.tables import at_place, at_temperature, place_of
+from pyrofit.solver.kernels.tables import at_place, place_of
 
 RATES_FROM_K, RATES_TO_K = 200.0, 2000.0
 """Range in which rates follow T."""
@@ -32,14 +32,24 @@ def layer(m, n, material, T):
 
     k is mixed by volume, c by mass.
     """
-    d = 0.0 * T
-    k = 0.0 * T
-    c = 0.0 * T
+    place = place_of(T)
+    # Each case has a loop of its own: one for both keeps the places of all tables in memory.
+    if nodes(material) == 1:
+        return mixed(m, n, material, place, True)
+    return mixed(m, n, material, place, False)
+
+
+@inner
+def mixed(m, n, material, place, constant):
+    """Return the same at a place in the tables, which are constant or not."""
+    d = 0.0 * place.part
+    k = d
+    c = d
     for i in range(m.shape[0]):
-        v = m[i, n] * material.specific_volume[i] * at_temperature(material.expansion, i, T)
+        v = m[i, n] * material.specific_volume[i] * at_place(material.expansion, i, place, constant)
         d += v
-        k += v * at_temperature(material.conductivity, i, T)
-        c += m[i, n] * at_temperature(material.specific_heat, i, T)
+        k += v * at_place(material.conductivity, i, place, constant)
+        c += m[i, n] * at_place(material.specific_heat, i, place, constant)
     return d, where(k > 0.0, d * d / max(k, TINY), 0.0), c
 
 

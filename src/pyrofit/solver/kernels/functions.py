@@ -9,7 +9,7 @@ from numba.core.typing.templates import signature
 from numba.extending import intrinsic
 from numba.np.arrayobj import make_array
 
-from pyrofit.solver.kernels.jit import inner
+from pyrofit.compiled.jit import inner
 from pyrofit.solver.kernels.lane_types import Lanes, splat
 from pyrofit.solver.kernels.lanes import number_like
 

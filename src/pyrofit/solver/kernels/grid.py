@@ -9,10 +9,10 @@ import math
 
 import numpy as np
 
+from pyrofit.compiled.jit import entry, inner
 from pyrofit.constants import STEFAN_BOLTZMANN
 from pyrofit.solver.arrays import FLAME, FLUX, FRONT_GAS, FRONT_H, FRONT_WALL
 from pyrofit.solver.kernels.functions import log
-from pyrofit.solver.kernels.jit import entry, inner
 from pyrofit.solver.kernels.tables import at_temperature
 
 LEAST_CELLS, MOST_CELLS = 50, 2000

@@ -2,11 +2,11 @@
 
 from typing import NamedTuple
 
+from pyrofit.compiled.jit import between, inner, live, loop
 from pyrofit.constants import STEFAN_BOLTZMANN
 from pyrofit.solver.arrays import Number
 from pyrofit.solver.kernels import row
 from pyrofit.solver.kernels.functions import exp, fma, log, nearly_inverse
-from pyrofit.solver.kernels.jit import between, inner, live, loop
 from pyrofit.solver.kernels.lanes import opposite, somewhere, where
 from pyrofit.solver.kernels.radiation import is_opaque, mean_depth, optical_depth
 from pyrofit.solver.kernels.reactions import TINY
@@ -37,6 +37,8 @@ class Edge(NamedTuple):
 @inner
 def approach(t, time):
     """Return 1 - exp(-t/time), the share reached of a value approached with a time constant."""
+    if not somewhere(time > 0.0):
+        return 1.0 + 0.0 * time
     return where(time > 0.0, 1.0 - exp(-t / max(time, TINY)), 1.0)
 
 

@@ -4,8 +4,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from pyrofit.compiled.jit import making
 from pyrofit.solver.arrays import FloatArray, Number
-from pyrofit.solver.kernels.jit import making
 from pyrofit.solver.kernels.lanes import in_lanes
 from pyrofit.solver.kernels.work import Room, make_room
 

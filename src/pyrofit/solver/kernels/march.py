@@ -14,11 +14,11 @@ Several parameter sets run side by side, each in a lane of its own (`lanes`), wi
 flux, burn-out and failure. A lane that has ended, or whose step was refused, keeps its state.
 """
 
+from pyrofit.compiled.jit import inner, loop
 from pyrofit.solver.arrays import Status
 from pyrofit.solver.kernels import row
 from pyrofit.solver.kernels.bdf import energy_error, rejected, step_ratio
 from pyrofit.solver.kernels.heat import Edge
-from pyrofit.solver.kernels.jit import inner, loop
 from pyrofit.solver.kernels.lanes import in_lane, opposite, somewhere, where, with_lane
 from pyrofit.solver.kernels.progress import ended, moved, next_clock, started, tried
 from pyrofit.solver.kernels.state import (

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from pyrofit.solver.kernels.jit import inner, loop
+from pyrofit.compiled.jit import inner, loop
 from pyrofit.solver.kernels.trace import BURNT, KINK, POWER, PROBES, RATE, RELEASED, STEPS, TIME
 
 JUMP_K = 20.0

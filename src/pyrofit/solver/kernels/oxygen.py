@@ -10,11 +10,11 @@ from the thickness of the cells, so that the surface recedes as they burn. Over 
 with depth by n d/L besides its fall with temperature; the mean takes both.
 """
 
+from pyrofit.compiled.jit import inner, live, loop
 from pyrofit.constants import AIR_HEAT_CAPACITY, OXYGEN_OVER_AIR
 from pyrofit.solver.arrays import LIT, OXYGEN
 from pyrofit.solver.kernels import row
 from pyrofit.solver.kernels.functions import exp, exp_of_negative, fma, log, power
-from pyrofit.solver.kernels.jit import inner, live, loop
 from pyrofit.solver.kernels.lanes import somewhere, where
 from pyrofit.solver.kernels.reactions import TINY, is_curved, power_of_share, quickening
 from pyrofit.solver.kernels.schedule import during

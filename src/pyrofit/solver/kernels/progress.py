@@ -2,6 +2,7 @@
 
 from typing import NamedTuple
 
+from pyrofit.compiled.jit import inner
 from pyrofit.solver.arrays import FLAME, FLUX, Number, Status
 from pyrofit.solver.kernels.bdf import (
     Balance,
@@ -13,7 +14,6 @@ from pyrofit.solver.kernels.bdf import (
     start_clock,
     tick,
 )
-from pyrofit.solver.kernels.jit import inner
 from pyrofit.solver.kernels.lanes import opposite, where
 
 GASIFICATION_SCALE = 2.0e6

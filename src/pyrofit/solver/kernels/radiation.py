@@ -2,8 +2,8 @@
 
 import math
 
+from pyrofit.compiled.jit import inner, live
 from pyrofit.solver.kernels.functions import exp
-from pyrofit.solver.kernels.jit import inner, live
 from pyrofit.solver.kernels.lanes import opposite, somewhere, where
 from pyrofit.solver.kernels.reactions import TINY
 from pyrofit.solver.kernels.tables import at_place, place_of

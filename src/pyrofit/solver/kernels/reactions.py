@@ -1,7 +1,7 @@
 """Mass change of a cell by its reactions over one time step."""
 
+from pyrofit.compiled.jit import inner
 from pyrofit.solver.kernels.functions import exp, fma, log, nearly_inverse, power
-from pyrofit.solver.kernels.jit import inner
 from pyrofit.solver.kernels.lanes import somewhere, where
 
 MOST_DECAY = 700.0

@@ -2,6 +2,7 @@
 
 from typing import NamedTuple
 
+from pyrofit.compiled.jit import inner
 from pyrofit.solver.arrays import (
     BACK_GAS,
     BACK_H,
@@ -15,7 +16,6 @@ from pyrofit.solver.arrays import (
     Number,
 )
 from pyrofit.solver.kernels.functions import at_node
-from pyrofit.solver.kernels.jit import inner
 from pyrofit.solver.kernels.lanes import where
 from pyrofit.solver.kernels.reactions import TINY
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from pyrofit.compiled.jit import entry, making
 from pyrofit.solver.arrays import End, Probes, Start
-from pyrofit.solver.kernels.jit import entry, making
 from pyrofit.solver.kernels.lanes import in_lanes
 from pyrofit.solver.kernels.march import march
 from pyrofit.solver.kernels.output import sample

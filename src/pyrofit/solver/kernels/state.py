@@ -1,5 +1,6 @@
 """The state of a slab: its start, its change by a step, and the cells that leave the grid."""
 
+from pyrofit.compiled.jit import between, inner, live, loop
 from pyrofit.solver.kernels import row
 from pyrofit.solver.kernels.cells import (
     describe,
@@ -8,7 +9,6 @@ from pyrofit.solver.kernels.cells import (
     reactant_in_lane,
     reactant_left,
 )
-from pyrofit.solver.kernels.jit import between, inner, live, loop
 from pyrofit.solver.kernels.lanes import opposite, somewhere, where
 from pyrofit.solver.kernels.oxygen import begin_depths, close, fill_in_depth
 from pyrofit.solver.kernels.step import summed

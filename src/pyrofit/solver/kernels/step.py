@@ -2,6 +2,7 @@
 
 from typing import NamedTuple
 
+from pyrofit.compiled.jit import between, inner, live, loop
 from pyrofit.solver.arrays import LIT, Number, Status
 from pyrofit.solver.kernels import row
 from pyrofit.solver.kernels.bdf import formula
@@ -28,7 +29,6 @@ from pyrofit.solver.kernels.heat import (
     surface_heat,
     temperature_falls,
 )
-from pyrofit.solver.kernels.jit import between, inner, live, loop
 from pyrofit.solver.kernels.lanes import somewhere, where
 from pyrofit.solver.kernels.oxygen import (
     correct_in_depth,

@@ -2,9 +2,9 @@
 
 from typing import NamedTuple
 
+from pyrofit.compiled.jit import inner
 from pyrofit.solver.arrays import TABLE_SIZE, TABLE_START_K, TABLE_STEP_K, Number
 from pyrofit.solver.kernels.functions import at_node, fma, whole
-from pyrofit.solver.kernels.jit import inner
 
 TABLE_END_K = TABLE_START_K + TABLE_STEP_K * (TABLE_SIZE - 1)
 

@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 
+from pyrofit.compiled.jit import entry, inner, loop
 from pyrofit.solver.kernels.functions import exp, power
 from pyrofit.solver.kernels.heated import Gas, Program, allocate, of_points, sample_of
-from pyrofit.solver.kernels.jit import entry, inner, loop
 from pyrofit.solver.kernels.lanes import in_lanes, somewhere, where
 from pyrofit.solver.kernels.reactions import TINY, decay, quickening, react
 from pyrofit.solver.kernels.views import network_in_lanes

@@ -3,9 +3,9 @@
 import math
 from typing import NamedTuple
 
+from pyrofit.compiled.jit import inner, loop
 from pyrofit.solver.arrays import FloatArray, Number
 from pyrofit.solver.kernels import row
-from pyrofit.solver.kernels.jit import inner, loop
 from pyrofit.solver.kernels.lanes import in_lane, where
 from pyrofit.solver.kernels.reactions import TINY
 

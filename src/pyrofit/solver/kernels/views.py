@@ -3,8 +3,8 @@
 from numba import types
 from numba.extending import overload
 
+from pyrofit.compiled.jit import making
 from pyrofit.solver.arrays import Description, Exposure, Material, Network, Surface
-from pyrofit.solver.kernels.jit import making
 from pyrofit.solver.kernels.lanes import in_lanes
 
 

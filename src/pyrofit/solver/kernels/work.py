@@ -4,9 +4,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from pyrofit.compiled.jit import making
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.kernels import row
-from pyrofit.solver.kernels.jit import making
 from pyrofit.solver.kernels.lanes import in_lanes
 
 ALIGNED = 8

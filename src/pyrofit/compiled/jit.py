@@ -1,9 +1,9 @@
-"""How the kernels are compiled."""
+"""How functions are compiled."""
 
 import numpy as np
 from numba import njit
 
-from pyrofit.solver.kernels.cache import CompiledFiles
+from pyrofit.compiled.cache import CompiledFiles
 
 
 def entry(function):

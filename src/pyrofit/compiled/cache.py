@@ -35,11 +35,6 @@ LONGEST_WAIT_S = 900.0
 """A process that waits longer for another one compiles for itself."""
 LOOK_AGAIN_S = 0.1
 _HERE = Path(__file__).parent
-_SOURCES = [
-    *sorted(_HERE.glob("*.py")),
-    _HERE.parent / "arrays.py",
-    _HERE.parents[1] / "constants.py",
-]
 _OPTIONS = ("OPT", "LOOP_VECTORIZE", "SLP_VECTORIZE", "BOUNDSCHECK", "DEBUGINFO_DEFAULT")
 """Settings of numba that change the compiled code."""
 _LOG = logging.getLogger(__name__)
@@ -50,12 +45,13 @@ class CompiledFiles:
 
     def __init__(self, function):
         self._name = function.__name__
+        self._folders = folders(Path(function.__code__.co_filename).parent)
         self._lock = None
 
     @property
     def cache_path(self):
         """The first folder in which files are looked for."""
-        return str(folders()[0])
+        return str(self._folders[0])
 
     def enable(self):
         """Stay enabled."""
@@ -71,13 +67,15 @@ class CompiledFiles:
         target_context.refresh()
         self._unlock()
         name, kind = self._file_name(sig), _of_processor(target_context)
-        found = _load(name, kind, sig, target_context)
+        found = _load(self._folders, name, kind, sig, target_context)
         if found is None and self._wait_for_lock(name, kind):
-            found = _load(name, kind, sig, target_context)  # another process was faster
+            found = _load(
+                self._folders, name, kind, sig, target_context
+            )  # another process was faster
             if found is not None:
                 self._unlock()
         if found is None:
-            _LOG.warning("Compiling %s of the solver, once: some 10 to 60 s.", self._name)
+            _LOG.warning("Compiling %s, once: up to a minute.", self._name)
         return found
 
     def save_overload(self, sig, compiled):
@@ -85,7 +83,7 @@ class CompiledFiles:
         try:
             name, kind = self._file_name(sig), _of_processor(compiled.target_context)
             if not compiled.library.has_dynamic_globals:
-                _save(name, kind, dumps(compiled._reduce()))
+                _save(self._folders, name, kind, dumps(compiled._reduce()))
         finally:
             self._unlock()
 
@@ -94,7 +92,7 @@ class CompiledFiles:
 
     def _wait_for_lock(self, name, kind):
         """Return whether this process now may compile alone; False where locks do not work."""
-        for folder in folders():
+        for folder in self._folders:
             with contextlib.suppress(OSError):
                 (folder / kind).mkdir(parents=True, exist_ok=True)
                 self._lock = os.open(folder / kind / f"{name}.lock", os.O_RDWR | os.O_CREAT, 0o666)
@@ -123,15 +121,15 @@ def _locked(file, name):
             return True
         except BlockingIOError:
             if not told:
-                _LOG.warning("Another process compiles %s of the solver; waiting for it.", name)
+                _LOG.warning("Another process compiles %s; waiting for it.", name)
             told = True
             time.sleep(LOOK_AGAIN_S)
     return False
 
 
-def _load(name, kind, sig, target_context):
+def _load(folders, name, kind, sig, target_context):
     """Return a compiled signature from the first folder that holds a whole file of it."""
-    for folder in folders():
+    for folder in folders:
         try:
             content = (folder / kind / f"{name}.code").read_bytes()
         except OSError:
@@ -145,10 +143,10 @@ def _load(name, kind, sig, target_context):
     return None
 
 
-def _save(name, kind, code):
+def _save(folders, name, kind, code):
     """Write a file in the first folder that can be written, whole or not at all."""
     told = ""
-    for folder in folders():
+    for folder in folders:
         try:
             (folder / kind).mkdir(parents=True, exist_ok=True)
             _write(folder / kind / f"{name}.code", hashlib.sha256(code).digest() + code)
@@ -177,12 +175,15 @@ def _write(path, content):
 
 
 @functools.cache
-def folders():
-    """Return where compiled code may lie, for every processor, in order of preference.
+def folders(package=_HERE):
+    """Return where compiled code of a package may lie, in order of preference.
 
-    The folders are named by the sources, the versions of the compiling software, and its settings.
+    The folders serve every processor. They are named by all sources that the code depends on, the
+    versions of the compiling software, and its settings.
     """
-    total = hashlib.sha256(b"".join(path.read_bytes() for path in _SOURCES))
+    beside = [package.parent / "arrays.py", _HERE.parent / "constants.py", _HERE / "jit.py"]
+    sources = [path for path in (*sorted(package.glob("*.py")), *beside) if path.exists()]
+    total = hashlib.sha256(b"".join(path.read_bytes() for path in sources))
     versions = (
         numba.__version__,
         llvmlite.__version__,

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pyrofit.solver.kernels.jit import entry, inner
+from pyrofit.compiled.jit import entry, inner
 
 LEAST_SLOPE = 1e-13
 """Slopes at a limit count as zero below this share of the largest one."""

@@ -1,0 +1,1 @@
+"""Compiled loops over matrices: sums in the order that they state, on every processor."""
