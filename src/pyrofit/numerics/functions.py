@@ -5,6 +5,7 @@ divisions that are rounded one by one. Results are off by less than two units in
 where nothing else is said.
 """
 
+import math
 from collections.abc import Sequence
 from typing import Any, overload
 
@@ -44,6 +45,8 @@ def exp(x: Any) -> Any:
 
     x = k ln 2 + r, |r| <= ln(2)/2; e^r = 1 + r + r c/(2 - c) with a polynomial c of r.
     """
+    if isinstance(x, float):
+        return np.float64(_exp(float(x)))
     x = np.clip(np.asarray(x, dtype=np.float64), -800.0, 800.0)
     k = np.rint(x * 1.44269504088896338700)
     high, low = x - k * _LN2[0], k * _LN2[1]
@@ -63,6 +66,8 @@ def log(x: Any) -> Any:
 
     x = 2^k (1 + f), sqrt(1/2) <= 1 + f < sqrt(2); ln(1 + f) = 2 artanh(s), s = f/(2 + f).
     """
+    if isinstance(x, float):
+        return np.float64(_log(float(x)))
     x = np.asarray(x, dtype=np.float64)
     usual = (x > 0.0) & (x < np.inf)
     part, k = np.frexp(np.where(usual, x, 1.0))
@@ -78,11 +83,37 @@ def log(x: Any) -> Any:
     return found[()]
 
 
-def _polynomial(coefficients: Sequence[float], x: Floats) -> Floats:
-    total = np.full(x.shape, coefficients[-1])
+def _polynomial(coefficients: Sequence[float], x: Any) -> Any:
+    total: Any = coefficients[-1]
     for c in reversed(coefficients[:-1]):
         total = c + x * total
     return total
+
+
+def _exp(x: float) -> float:
+    """Return e^x of a number, in the same operations: arrays of one take ten times as long."""
+    if math.isnan(x):
+        return x
+    x = min(max(x, -800.0), 800.0)
+    k = round(x * 1.44269504088896338700)
+    high, low = x - k * _LN2[0], k * _LN2[1]
+    r = high - low
+    c: float = r - (r * r) * _polynomial(_EXP, r * r)
+    near = 1.0 - ((low - (r * c) / (2.0 - c)) - high)
+    return math.ldexp(near, k) if k < 1024 else math.ldexp(near, 1023) * math.ldexp(1.0, k - 1023)
+
+
+def _log(x: float) -> float:
+    """Return ln x of a number, in the same operations."""
+    if not 0.0 < x < math.inf:
+        return x if x > 0.0 else -math.inf if x == 0.0 else math.nan
+    part, k = math.frexp(x)
+    if part < 0.70710678118654752440:
+        part, k = 2.0 * part, k - 1
+    f = part - 1.0
+    s, half = f / (2.0 + f), 0.5 * f * f
+    rest: float = (s * s) * _polynomial(_LOG, s * s)
+    return k * _LN2[0] - ((half - (s * (half + rest) + k * _LN2[1])) - f)
 
 
 @overload
