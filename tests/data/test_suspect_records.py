@@ -17,6 +17,7 @@ from pyrofit.stages.reading import check_measurements
 TIME = np.arange(0.0, 3000.0, 6.0)
 KELVIN = 300.0 + TIME / 6.0
 MASS = 1.0 - 0.9 / (1.0 + np.exp((640.0 - KELVIN) / 12.0))
+HOT = 1.25 * KELVIN - 75.0
 FEW = np.delete(np.arange(TIME.size), np.s_[200:240])
 PAUSE = TIME + np.where(TIME > 1500.0, 86400.0, 0.0)
 SLOW = TIME + np.where(TIME > 0.0, 120.0, 0.0)
@@ -50,6 +51,10 @@ SUSPECT = {
         "it starts at 80 °C and heats by 18 K/min, which would be 10 K/min if the column is in °F",
     ),
     "loss of mass": ((TIME, KELVIN, 1.0 - MASS), "and rises, as a loss of mass does"),
+    "char lost late": (
+        (TIME, HOT, 0.7 * MASS + 0.3 - 5e-4 * np.clip(HOT - 800.0, 0.0, None)),
+        "it loses 5.4 % of the mass from 800 to 900 K",
+    ),
     "pause of a day": ((PAUSE, KELVIN, MASS), "no point lies between 1500 s and 87906 s"),
 }
 
@@ -226,3 +231,33 @@ def test_a_heat_flow_that_no_sample_has_is_told() -> None:
         flow = size * np.sin(TIME / 300.0)
         frame = pd.DataFrame({"time_s": TIME, "temperature_K": KELVIN, "heat_flow_W_kg": flow})
         assert len([note for note in suspicions(quantity, frame) if "heat flow" in note]) == count
+
+
+def test_a_heat_flow_of_several_heatings_is_told_and_its_peak_is_that_of_one() -> None:
+    quantity = known_quantities()["heat_flow"]
+    kelvin = 420.0 - np.abs(np.arange(0.0, 480.0) - 240.0)  # heated and cooled
+    slope = np.gradient(kelvin)
+    frame = pd.DataFrame(
+        {"time_s": 6.0 * np.arange(480.0), "temperature_K": kelvin, "heat_flow_W_kg": 250.0 * slope}
+    )
+    said = suspicions(quantity, frame)
+    assert any("no single heating: the temperature falls by 239 K" in note for note in said)
+    assert quantity.remark is not None
+    assert quantity.remark(kelvin, 250.0 * slope) == ""
+    assert not any("single heating" in note for note in suspicions(quantity, frame[:240]))
+
+
+@pytest.mark.parametrize(("seconds", "told"), [(20.0, True), (500.0, False)])
+def test_a_back_that_rises_as_the_front_does_is_told(seconds: float, told: bool) -> None:
+    time = np.arange(0.0, 1000.0, 5.0)
+    frame = pd.DataFrame(
+        {"time_s": time, "back_temperature_K": 300.0 + 300.0 * np.minimum(time / seconds, 1.0)}
+    )
+    said = suspicions(known_quantities()["back_temperature"], frame)
+    assert any("the signal is the front temperature" in note for note in said) is told
+
+
+def test_char_lost_in_oxygen_is_no_fault() -> None:
+    columns, words = SUSPECT["char lost late"]
+    quantity, frame = known_quantities()["mass_fraction"], frame_of(*columns)
+    assert not any(words in note for note in suspicions(quantity, frame, in_oxygen=True))

@@ -44,7 +44,6 @@ from pyrofit.estimate.pose_likelihood import pose_likelihood
 from pyrofit.estimate.wrong_model import least_squares
 from pyrofit.experiments import kind_of
 from pyrofit.logs import Tell
-from pyrofit.results.goodness import ONE_RATE
 from pyrofit.show.goodness import goodness_sentences, of_one_rate
 from pyrofit.show.text import several
 from pyrofit.solver.arrays import FloatArray
@@ -199,7 +198,7 @@ def fit_likelihood(
     x = likelihood.values(found.optimum.x)
     values = problem.values(x)
     scored = series_compared(study, values, series)
-    rest = [e.name for e in found.estimates if e.verdict == ONE_RATE]
+    rest = [e.name for e in found.estimates if e.one_rate]
     own = in_units(study, {n: v for n, v in values.items() if n in study.parameters})
     made = Fit(
         study=study,

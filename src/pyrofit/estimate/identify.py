@@ -15,7 +15,7 @@ from pyrofit.errors import DataError
 from pyrofit.estimate.bounded_least_squares import Fit
 from pyrofit.estimate.goodness import goodness_of_fit
 from pyrofit.estimate.likelihood import Likelihood, fit
-from pyrofit.estimate.one_rate import following_from_the_model
+from pyrofit.estimate.one_rate import BEYOND, following_from_the_model, follows_with
 from pyrofit.estimate.posterior import Posterior, interval, limit_of
 from pyrofit.estimate.profile import Interval, Profile, profile_of
 from pyrofit.estimate.uncertain_apparatus import moves
@@ -35,8 +35,6 @@ RESTARTS = 3
 """How often a lower chi-square found by a profile starts the analysis again."""
 LOWER = 0.01
 """A chi-square is lower if it is so by more."""
-BEYOND = 0.1
-"""How far a parameter at a limit is thought to lie beyond it, as a fraction of the search range."""
 SURE, WEAK = "determined", "weakly determined"
 LINEAR, PROFILE = "linear", "profile"
 """How an interval was made, see `Estimate`."""
@@ -84,7 +82,7 @@ class Estimate:
     went beyond by `BEYOND`."""
     one_rate: bool = False
     """Whether it follows from the reaction that the model assumes, as tests at one heating rate are
-    fitted. So does one that leaves its interval if such a parameter moves by `BEYOND`."""
+    fitted. So does one that `follows_with` such parameters."""
 
     @property
     def verdict(self) -> str:
@@ -297,9 +295,7 @@ def _around(
         others = J[:, [k for k in ends if k != i]]
         away = BEYOND * linear.product(covariance, J[:, free].T, others) / dispersion
         tied = bool(np.any(np.abs(away[at]) > reach))
-        with_those = [free.index(k) for k in assumed if k in free]
-        moved_by = BEYOND * covariance[at, with_those] / np.diag(covariance)[with_those]
-        one_rate = i in assumed or bool(np.any(np.abs(moved_by) > reach))
+        those = [free.index(k) for k in assumed if k in free]
         estimates.append(
             Estimate(
                 name=name,
@@ -312,7 +308,7 @@ def _around(
                 method=method,
                 bound=limit_of(x),
                 tied=tied,
-                one_rate=one_rate,
+                one_rate=i in assumed or follows_with(at, those, covariance, reach),
             )
         )
     return tuple(estimates), profiles, lowest

@@ -14,7 +14,8 @@ def remark(temperature: FloatArray, flow: FloatArray) -> str:
     """Say where the largest peak releases heat, or that the values are too small.
 
     The peak is the largest difference between a value and the mean of those 60 K below and above. A
-    baseline that is curved or far from zero does not count.
+    baseline that is curved or far from zero does not count, nor does a cooling and what follows it
+    up to the temperature before.
 
     >>> T = np.arange(300.0, 800.0, 10.0)
     >>> remark(T, 300.0 - 2000.0 * np.exp(-(((T - 640.0) / 20.0) ** 2)))[:52]
@@ -22,7 +23,8 @@ def remark(temperature: FloatArray, flow: FloatArray) -> str:
     """
     if np.ptp(flow) < LEAST:
         return f"it varies by {np.ptp(flow):.2g} W/kg only: is its unit right?"
-    rising, first = np.unique(temperature, return_index=True)
+    warmest = np.maximum.accumulate(temperature)
+    rising, first = np.unique(warmest, return_index=True)
     inside = rising[(rising > rising[0] + PEAK_K) & (rising < rising[-1] - PEAK_K)]
     if inside.size == 0:
         return ""

@@ -175,11 +175,12 @@ def _read(experiment: Experiment, label: str, read: Callable[[Path], FileTable])
         frame = frame[frame["time_s"] <= signal.until_s]
     if len(frame) < 3:
         raise DataError(f"{found.source}: until_K or until_s leaves {len(frame)} points; raise it")
+    in_oxygen = isinstance(experiment, HeatedExperiment) and experiment.oxygen != 0.0
     about = OfFile(
         source=signal.file,
         sha256=found.sha256,
         uncertainty=found.uncertainty_meaning,
-        notes=[*found.notes, *suspicions(found.quantity, frame, found.in_K)],
+        notes=[*found.notes, *suspicions(found.quantity, frame, found.in_K, in_oxygen)],
     )
     return frame, about
 

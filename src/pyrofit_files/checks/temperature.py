@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from pyrofit.data.suspect import FEWEST_POINTS, FRONT_K, early_rise_K
 from pyrofit.numerics import linear
 from pyrofit_files.examined import Examined, FloatArray, Weight
 from pyrofit_files.signals import is_back, is_slab, temperatures
@@ -14,8 +15,6 @@ _OFF = 0.15
 """Deviation of a heating rate from that of the name that is unusual; twice is a fault."""
 _CYCLE_K = 20.0
 """Fall of the temperature that shows a cycle [K]."""
-_FRONT_K = 60.0
-"""Rise of a temperature within the first 5 % of a test that only the exposed face shows [K]."""
 
 
 def check_heating_rate(seen: Examined) -> None:
@@ -70,11 +69,9 @@ def check_range(seen: Examined) -> None:
 def check_place(seen: Examined) -> None:
     """Look for a temperature taken for that of the back which rises as the front does."""
     for signal in temperatures(seen):
-        if not is_back(signal) or signal.y.size < 40:
+        if not is_back(signal) or signal.y.size < FEWEST_POINTS:
             continue
-        early = signal.x <= signal.x[0] + 0.05 * (signal.x[-1] - signal.x[0])
-        rise = float(signal.y[early].max() - signal.y[0])
-        if rise > _FRONT_K:
+        if (rise := early_rise_K(signal.x, signal.y)) > FRONT_K:
             text = f"rises by {rise:.0f} K in the first 5 % of the test: the front or the gas?"
             seen.say("place", "doubt", text, signal.header)
 
