@@ -43,8 +43,9 @@ _LOG = logging.getLogger(__name__)
 class CompiledFiles:
     """The cache of one compiled function, as numba's dispatcher asks for it."""
 
-    def __init__(self, function):
+    def __init__(self, function, told=True):
         self._name = function.__name__
+        self._told = told
         self._folders = folders(Path(function.__code__.co_filename).parent)
         self._lock = None
 
@@ -74,7 +75,7 @@ class CompiledFiles:
             )  # another process was faster
             if found is not None:
                 self._unlock()
-        if found is None:
+        if found is None and self._told:
             _LOG.warning("Compiling %s, once: up to a minute.", self._name)
         return found
 

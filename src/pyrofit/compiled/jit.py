@@ -6,11 +6,16 @@ from numba import njit
 from pyrofit.compiled.cache import CompiledFiles
 
 
-def entry(function):
+def entry(function, told=True):
     """For functions called from Python; kept on disk by a cache of our own."""
     compiled = njit(error_model="numpy", no_cfunc_wrapper=True, nogil=True)(function)
-    compiled._cache = CompiledFiles(function)  # where `cache=True` puts that of numba
+    compiled._cache = CompiledFiles(function, told)  # where `cache=True` puts that of numba
     return compiled
+
+
+def short(function):
+    """For those that are compiled in a second or two, which nobody need be told."""
+    return entry(function, told=False)
 
 
 making = njit(error_model="numpy", no_cfunc_wrapper=True, no_cpython_wrapper=True)

@@ -6,7 +6,7 @@ even and odd ones apart and in blocks of eight, as `np.einsum` does with registe
 
 import numpy as np
 
-from pyrofit.compiled.jit import entry, inner
+from pyrofit.compiled.jit import inner, short
 
 
 @inner
@@ -27,7 +27,7 @@ def along(a, i, b, j, count):
     return even + odd
 
 
-@entry
+@short
 def rows_by_rows(a, b):
     """Return A B^T of shapes (m, i) and (n, i), sums along rows."""
     found = np.empty((a.shape[0], b.shape[0]))
@@ -37,7 +37,7 @@ def rows_by_rows(a, b):
     return found
 
 
-@entry
+@short
 def rows_by_columns(a, b):
     """Return A B of shapes (m, i) and (i, n), sums over rows of B."""
     found = np.zeros((a.shape[0], b.shape[1]))
@@ -48,7 +48,7 @@ def rows_by_columns(a, b):
     return found
 
 
-@entry
+@short
 def columns_by_columns(a, b):
     """Return A^T B of shapes (i, m) and (i, n), sums over rows."""
     found = np.zeros((a.shape[1], b.shape[1]))
@@ -74,7 +74,7 @@ def add_four(a, b, i, k, to, begin):
         to[k, j] = total + w * b[i + 3, j]
 
 
-@entry
+@short
 def gram(a):
     """Return A^T A of shape (i, n), sums over rows."""
     n = a.shape[1]
@@ -93,7 +93,7 @@ def gram(a):
     return found
 
 
-@entry
+@short
 def cholesky(a):
     """Return L with L L^T = A, and whether A is positive definite."""
     n = a.shape[0]
@@ -109,7 +109,7 @@ def cholesky(a):
     return left, True
 
 
-@entry
+@short
 def solve_lower(left, b, apart):
     """Return x of L x = b of shape (n, k); sums along rows if ``apart``, else over rows of x."""
     n, columns = b.shape
@@ -150,7 +150,7 @@ def reflect(v, double, to, first, apart, total):
             to[i, j] -= share * total[j]
 
 
-@entry
+@short
 def qr(a, apart, small):
     """Return Q with orthonormal columns and R, not yet a triangle, of Householder's reflections.
 
@@ -181,7 +181,7 @@ def qr(a, apart, small):
     return basis, rest[:count]
 
 
-@entry
+@short
 def solve_band(factor, b):
     """Return x of L x = b of shape (n, k), L of the bands of `pyrofit.numerics.bands`."""
     x = b.copy()

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pyrofit.compiled.jit import entry, inner
+from pyrofit.compiled.jit import inner, short
 
 LEAST_SLOPE = 1e-13
 """Slopes at a limit count as zero below this share of the largest one."""
@@ -111,7 +111,7 @@ def released(square, slope, low, high, x, free):
     return found
 
 
-@entry
+@short
 def least_within(square, slope, low, high):
     """Return x of least x^T B x / 2 + g^T x within limits, and whether B is positive definite."""
     n = slope.size
