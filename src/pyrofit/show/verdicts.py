@@ -8,7 +8,6 @@ from pyrofit.config import Study
 from pyrofit.show.facts import Facts
 from pyrofit.show.goodness import where_missed
 from pyrofit.show.names import all_scored
-from pyrofit.show.text import several
 
 
 def verdict_on(study: Study, facts: Facts, stage: str, pairs: Collection[tuple[str, str]]) -> str:
@@ -21,7 +20,8 @@ def verdict_on(study: Study, facts: Facts, stage: str, pairs: Collection[tuple[s
     said = []
     if missed:
         worst = max(missed, key=lambda s: s.rms / s.range if s.range else 0.0)
-        said.append(f"Missed: {len(missed)} of {several(len(tested), 'fitted signal')}.")
+        of = f"{len(missed)} of the {len(tested)} fitted signals"
+        said.append(f"The fit misses {of if tested[1:] else 'the fitted signal'} shown here.")
         said += [f"The worst: {where_missed(study, worst)}"] if worst.misses else []
     elif tested:
         said.append("The fit describes these signals within their noise.")
