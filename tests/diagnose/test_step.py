@@ -239,9 +239,17 @@ def test_effects_are_judged_until_one_fails_the_one_that_gains_least_first(
     """The predictions of the others are then not needed."""
     judged: list[int] = []
 
-    def findings_of(found: Search, without: Any, context: Any, which: list[int]) -> Any:
+    def findings_of(
+        found: Search, without: Any, context: Any, which: list[int], leading_first: bool
+    ) -> Any:
         judged.extend(which)
-        return places.findings_of(found, without, context, which)
+        findings = places.findings_of(found, without, context, which, leading_first)
+        whole = places.findings_of(found, without, context, which)
+        leading, whole_leading = findings[0].judged[0], whole[0].judged[0]
+        assert leading.rejected == whole_leading.rejected
+        # Others are not judged beside a leading effect that is rejected.
+        assert len(findings[0].judged) == (1 if leading.rejected else len(whole[0].judged))
+        return findings
 
     monkeypatch.setattr(verdict, "findings_of", findings_of)
     context = SearchContext(np.random.default_rng(2))

@@ -1,6 +1,7 @@
 """The effects of the final model that are needed, and the evidence for and against each."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from copy import deepcopy
 from dataclasses import replace
 
 import numpy as np
@@ -19,6 +20,9 @@ from pyrofit.diagnose.search.step import SearchContext, SearchStep
 from pyrofit.diagnose.search.stepwise import Search, replacing
 from pyrofit.effects import known_effects
 from pyrofit.parallel import parallel_map
+
+Key = tuple[tuple[str, tuple[str, ...]], ...]
+"""Effects of a model, with their forms."""
 
 
 def end_without_superfluous(
@@ -66,12 +70,14 @@ def findings_of(
     without: Sequence[FittedModel],
     context: SearchContext,
     which: Sequence[int] | None = None,
+    leading_first: bool = False,
 ) -> tuple[Finding, ...]:
     """Judge effects of a search's end, all or which ones, and those they cannot be told from.
 
-    ``without`` are the models without each effect of the end.
+    ``without`` are the models without each effect of the end. With ``leading_first`` the others are
+    not judged where the leading ones are all rejected.
     """
-    effects, processes = found.end.effects, context.processes
+    effects = found.end.effects
     which = range(len(effects)) if which is None else which
     places = {k: alternatives(found, effects[k]) for k in which}
     exchanged = {k: exchanges(found, effects[k]) for k in which}
@@ -79,56 +85,80 @@ def findings_of(
     rivals = {_key(trial): trial for place in places.values() for _, trial in place}
     rivals |= {_key(one.trial): one.trial for place in exchanged.values() for one in place}
     # A model that leaves misfit explains no held-out signal.
-    clean = [not by_significant_misfit(trial).inflates for trial in rivals.values()]
-    may_explain = found.end_lack.adequate or (len(effects) == 1 and any(clean))
-    models = [*(without[k] for k in which), *rivals.values()]
-    predicted = model_predictions(models, processes, whole=may_explain, made=context.made)
-    before = dict(zip(which, predicted[: len(which)], strict=True))
-    own = predicted[len(which) :]
-    inflation = inflation_by_misfit(found)
-    explained: list[bool | None] = [None] * len(own)
-    if may_explain:
-        rngs = context.rng.spawn(len(own))
-        explained[:] = parallel_map(
-            lambda i: clean[i] and explains(own[i], rngs[i]), len(own), processes
-        )
-    known = dict(zip(rivals, zip(own, explained, strict=True), strict=True))
+    may_explain = found.end_lack.adequate or (
+        len(effects) == 1 and not all(map(_leaves_misfit, rivals.values()))
+    )
+    rngs = dict(zip(rivals, context.rng.spawn(len(rivals)), strict=True)) if may_explain else {}
+    if leading_first:
+        firsts = {k: place[:1] for k, place in places.items()}
+        alone = _judged(found, without, context, firsts, dict.fromkeys(which, ()), deepcopy(rngs))
+        if all(finding.judged[0].rejected for finding in alone):
+            return alone
+    return _judged(found, without, context, places, exchanged, rngs)
+
+
+def _leaves_misfit(trial: FittedModel) -> bool:
+    return by_significant_misfit(trial).inflates
+
+
+def _judged(
+    found: Search,
+    without: Sequence[FittedModel],
+    context: SearchContext,
+    places: Mapping[int, Sequence[tuple[str, FittedModel]]],
+    exchanged: Mapping[int, Sequence[Exchange]],
+    rngs: Mapping[Key, np.random.Generator],
+) -> tuple[Finding, ...]:
+    """Judge models in the places of effects, and in exchange for them.
+
+    ``rngs`` draw the noise of held-out signals, by model; none where no model may explain them.
+    """
+    effects, processes = found.end.effects, context.processes
     pairs = [(k, trial) for k, place in places.items() for _, trial in place]
     pairs += [(k, one.trial) for k, place in exchanged.items() for one in place]
-    against = conflicts(
-        [(trial, without[k]) for k, trial in pairs], inflation.penalised, found.spare, processes
-    )
-    errors = wrong_instead(
-        [(trial, without[k]) for k, trial in pairs],
-        inflation.penalised,
-        found.end.settings.ambiguous_chi2,
-        processes,
-    )
+    rivals = {_key(trial): trial for _, trial in pairs}
+    models = [*(without[k] for k in places), *rivals.values()]
+    predicted = model_predictions(models, processes, whole=bool(rngs), made=context.made)
+    before = dict(zip(places, predicted[: len(places)], strict=True))
+    own = dict(zip(rivals, predicted[len(places) :], strict=True))
+    explained: dict[Key, bool | None] = dict.fromkeys(rivals)
+    if rngs:
+        keys = list(rivals)
+        tested = parallel_map(
+            lambda i: not _leaves_misfit(rivals[keys[i]]) and explains(own[keys[i]], rngs[keys[i]]),
+            len(keys),
+            processes,
+        )
+        explained.update(zip(keys, tested, strict=True))
+    inflation = inflation_by_misfit(found)
+    beside = [(trial, without[k]) for k, trial in pairs]
+    near = found.end.settings.ambiguous_chi2
+    against = conflicts(beside, inflation.penalised, found.spare, processes)
+    errors = wrong_instead(beside, inflation.penalised, near, processes)
     conflict = {(k, _key(trial)): names for (k, trial), names in zip(pairs, against, strict=True)}
     wrong = {(k, _key(trial)): names for (k, trial), names in zip(pairs, errors, strict=True)}
 
-    def judged(name: str, trial: FittedModel, k: int) -> Judged:
-        foreseen, also = known[_key(trial)]
-        of_known = conflict[k, _key(trial)]
-        about = trust(trial, name, foreseen, before[k], also, inflation, of_known)
+    def judged(name: str, key: Key, k: int) -> Judged:
+        trial = rivals[key]
+        about = trust(trial, name, own[key], before[k], explained[key], inflation, conflict[k, key])
         about = replace(
             about,
             known=known_beside(trial, without[k]),
-            wrong_instead=tuple(wrong[k, _key(trial)]),
+            wrong_instead=tuple(wrong[k, key]),
         )
-        if trial is not places[k][0][1]:  # the end's other effects have places of their own
+        if key != _key(places[k][0][1]):  # the end's other effects have places of their own
             about = replace(about, limit=next(iter(strengths_at_limit(trial)), ""))
         gain = inflation.penalised(without[k]) - inflation.penalised(trial)
         return Judged(name, trial, about, words_against(gain, found.spare, about))
 
     def passes(one: Exchange, k: int) -> bool:
-        return not any(judged(name, rivals[_key(one.trial)], k).rejected for name in one.by)
+        return not any(judged(name, _key(one.trial), k).rejected for name in one.by)
 
     weights, catalogue = group_weights(found), known_effects()
     return tuple(
         Finding(
             effects[k],
-            tuple(judged(name, trial, k) for name, trial in place),
+            tuple(judged(name, _key(trial), k) for name, trial in place),
             instead=tuple(one for one in exchanged[k] if passes(one, k)),
             weight=weights[catalogue[effects[k]].group],
         )
@@ -136,7 +166,7 @@ def findings_of(
     )
 
 
-def _key(trial: FittedModel) -> tuple[tuple[str, tuple[str, ...]], ...]:
+def _key(trial: FittedModel) -> Key:
     return tuple(trial.model.effects.items())
 
 

@@ -155,7 +155,7 @@ def _first_failed(
     """
     penalised = inflation_by_misfit(found).penalised
     for k in sorted(range(len(without)), key=lambda k: penalised(without[k])):
-        (finding,) = findings_of(found, without, context, [k])
+        (finding,) = findings_of(found, without, context, [k], leading_first=True)
         if reason := _against(finding):
             return k, reason
     return None
