@@ -70,6 +70,20 @@ def test_balance_with_an_arbitrary_zero_starts_at_the_stated_mass(
         read_series(SeriesSpec("mass_fraction", path, {"value": "TG"}))
 
 
+@pytest.mark.parametrize(("zero", "told"), [(44.19, True), (-4.7, False)])
+def test_mass_in_a_title_counts_where_the_zero_is_another_one(
+    zero: float, told: bool, tmp_path: Path
+) -> None:
+    above = "board N2 10 mg\nUser : lab\n\n"
+    values = 10.0 * MASS + zero if told else 5.3 * MASS  # 10 mg are the nominal mass
+    path = record(
+        tmp_path / "a.txt", above, "Time (s);Temperature (K);TG (mg)", TIME, KELVIN, values
+    )
+    text, (run,), _ = drafted("x", {"tga": [path]})
+    np.testing.assert_allclose(run.frames["mass_fraction"]["mass_fraction"], MASS, atol=1e-6)
+    assert ("sample_mass_kg: 1e-05" in text) is told
+
+
 def test_mass_near_the_stated_one_stays_as_it_is(tmp_path: Path) -> None:
     header = "Time (s);Temperature (K);TG (mg)"
     path = record(tmp_path / "a.txt", "Mass: 10 mg\nB: c\n", header, TIME, KELVIN, 10.4 * MASS)

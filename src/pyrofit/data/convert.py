@@ -77,14 +77,14 @@ def _from_start(
     DataError
         The first mass is not the initial mass that the file states, and the study gives none.
     """
-    stated = table.stated.mass_kg
+    stated = stated_mass(table, value)
     if is_change_of_fraction(spec.of, kind, value):
         return value + 1.0, ["a change of mass: 100 % is added"]
     if kind != "mass" or PER_START[kind] != spec.of.scales[0]:
         return value, []
     first, given = float(value[0]), spec.sample_mass_kg
     if stated is None:
-        if given is None or not _has_other_zero(value, given):
+        if given is None or not has_other_zero(value, given):
             return value, []
         return value - first + given, [
             f"the zero of the balance is arbitrary: {given:g} kg at first"
@@ -109,7 +109,18 @@ def is_change_of_fraction(quantity: Quantity, kind: str, value: FloatArray) -> b
     return fractions and is_change(value) and float(value.min()) >= -WHOLE
 
 
-def _has_other_zero(mass: FloatArray, initial: float) -> bool:
+def stated_mass(table: FileTable, mass: FloatArray) -> float | None:
+    """Return the initial mass [kg] that a file states of a sample with these masses; else None.
+
+    One that no key names may be nominal: it counts where the balance has another zero.
+    """
+    stated = table.stated.mass_kg
+    if stated is None or table.stated.mass_named or has_other_zero(mass, stated):
+        return stated
+    return None
+
+
+def has_other_zero(mass: FloatArray, initial: float) -> bool:
     """Tell whether masses begin at zero or far above the initial mass, and lose no more than it."""
     first, lowest, largest = float(mass[0]), float(np.nanmin(mass)), float(np.nanmax(mass))
     tared = abs(first) < TARED * (largest - lowest)

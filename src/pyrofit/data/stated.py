@@ -80,6 +80,8 @@ class Stated:
         Time of that change [s], where the steps of the run tell it.
     area_m2
         Exposed area of the sample [m2].
+    mass_named
+        Whether a key names that mass; else it may be a nominal one.
     """
 
     mass_kg: float | None = None
@@ -89,6 +91,7 @@ class Stated:
     then_gas: str = ""
     then_gas_s: float | None = None
     area_m2: float | None = None
+    mass_named: bool = True
 
 
 def stated_in(lines: Sequence[Sequence[str]]) -> Stated:
@@ -98,7 +101,7 @@ def stated_in(lines: Sequence[Sequence[str]]) -> Stated:
     mass of the sample, the only mass in mg counts, in a title for example.
 
     >>> stated_in([["#SAMPLE MASS /mg:", "5.000"], ["#EXO:", "+1"], ["Purge Gas", "air"]])
-    Stated(mass_kg=5e-06, exothermic_up=True, gas='air', flux_kW_m2=None, then_gas='', then_gas_s=None, area_m2=None)
+    Stated(mass_kg=5e-06, exothermic_up=True, gas='air', flux_kW_m2=None, then_gas='', then_gas_s=None, area_m2=None, mass_named=True)
     >>> stated_in([["Flux (kW/m2)", "tig (s)"], ["25", "85"]]).flux_kW_m2
     25.0
     """  # noqa: E501
@@ -126,9 +129,10 @@ def stated_in(lines: Sequence[Sequence[str]]) -> Stated:
             if (up := _exothermic_up(cell, value)) is not None:
                 signs.add(up)
     found = Stated()
+    named = bool(masses)
     masses = masses or _only_mass(lines[:_FIRST])
     if len(masses) == 1:
-        found = replace(found, mass_kg=masses.pop())
+        found = replace(found, mass_kg=masses.pop(), mass_named=named)
     if len(areas) == 1:
         found = replace(found, area_m2=areas.pop())
     if len(signs) == 1:

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from pyrofit.data.convert import OTHER_ZERO
+from pyrofit.data.convert import OTHER_ZERO, stated_mass
 from pyrofit.data.csvfile import FileTable
 from pyrofit.data.stated import Stated
 from pyrofit.data.suspect import FALLEN
@@ -295,17 +295,17 @@ def _dried_to(table: FileTable, header: str, unit: str, quantity: Quantity) -> f
 
 def _is_tared(table: FileTable, header: str, unit: str, scale: str) -> bool:
     """Tell whether the first mass is not the initial mass that the file states."""
-    stated = table.stated.mass_kg
     masses = {unit_key(word): factor for word, factor in SCALES["mass"].items()}
-    if stated is None or scale != "mass" or unit_key(unit) not in masses:
+    if scale != "mass" or unit_key(unit) not in masses:
         return False
-    first = float(table.columns[header][0]) * masses[unit_key(unit)]
-    return abs(first - stated) > OTHER_ZERO * stated
+    mass = table.columns[header] * masses[unit_key(unit)]
+    stated = stated_mass(table, mass)
+    return stated is not None and bool(abs(mass[0] - stated) > OTHER_ZERO * stated)
 
 
 def _begins_at(table: FileTable, header: str, unit: str, scale: str) -> float | None:
     """Return the first mass over the stated initial mass, where it is a little below."""
-    stated = table.stated.mass_kg
+    stated = table.stated.mass_kg if table.stated.mass_named else None
     if scale != "mass" or stated is None or _is_tared(table, header, unit, scale):
         return None
     factor = {unit_key(word): factor for word, factor in SCALES["mass"].items()}[unit_key(unit)]

@@ -26,5 +26,6 @@ def divisor_of(found: FoundColumn) -> tuple[str, float] | None:
 
 def is_told(found: FoundColumn, key: str) -> bool:
     """Tell whether the file gives the divisor of a signal."""
-    told = found.area_m2 if key == "sample_area_m2" else found.stated.mass_kg
-    return told is not None
+    if key == "sample_area_m2":
+        return found.area_m2 is not None
+    return found.stated.mass_kg is not None and found.stated.mass_named
