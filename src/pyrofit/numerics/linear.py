@@ -78,9 +78,9 @@ def _is_plain(a: Floats) -> bool:
 
 def gram(a: Floats) -> Floats:
     """Return A^T A of shape (columns, columns)."""
-    if a.shape[1] < 2 or a.size * a.shape[1] < _LARGE or not _is_plain(a):
-        return product(a.T, a)
-    if a.strides[0] < a.strides[1]:  # sums go along its columns
+    small = a.shape[1] < 2 or a.size * a.shape[1] < _LARGE
+    # In column-major order sums go along the columns, as those of products do.
+    if small or not _is_plain(a) or a.strides[0] < a.strides[1]:
         return product(a.T, a)
     from pyrofit.numerics.kernels import matrices
 
