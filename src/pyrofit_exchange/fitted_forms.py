@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pyrofit.numerics import functions, linear
+from pyrofit.numerics import fitting, functions
 from pyrofit.solver.arrays import TABLE_TEMPERATURES_K, FloatArray
 from pyrofit_exchange.fds.remarks import Remark
 
@@ -35,7 +35,7 @@ def power_law(table: FloatArray, reference_K: float) -> FittedForm:
     T, p = _part(table)
     if np.ptp(p) <= EXACT * abs(float(p[0])):
         return FittedForm((float(p[0]), 0.0), 0.0)
-    n, log_p0 = linear.polynomial(functions.log(T / reference_K), functions.log(p), 1)
+    n, log_p0 = fitting.polynomial(functions.log(T / reference_K), functions.log(p), 1)
     fitted = functions.exp(log_p0) * functions.power(T / reference_K, n)
     return FittedForm(
         (float(functions.exp(log_p0)), float(n)), float(np.abs(fitted / p - 1.0).max())
@@ -52,7 +52,7 @@ def quadratic(table: FloatArray) -> FittedForm:
     if np.ptp(p) <= EXACT * abs(float(p[0])):
         return FittedForm((float(p[0]), 0.0, 0.0), 0.0)
     for degree in (1, 2):
-        c = linear.polynomial(T, p, degree)[::-1]
+        c = fitting.polynomial(T, p, degree)[::-1]
         error = float(np.abs(np.polynomial.polynomial.polyval(T, c) / p - 1.0).max())
         if error <= EXACT:
             break

@@ -7,7 +7,7 @@ import numpy as np
 from pyrofit.data.csvfile import FileTable, FloatArray
 from pyrofit.experiments import KINDS, OF_FILES
 from pyrofit.new_study.columns import FoundColumn, Recognised, recognise
-from pyrofit.numerics import linear
+from pyrofit.numerics import fitting
 from pyrofit.quantities.units import SCALES, unit_key
 
 LARGEST_HEATED_KG = 1e-3
@@ -111,6 +111,6 @@ def _straight(time: FloatArray, temperature: FloatArray) -> bool:
     t, T = time[known], temperature[known]
     if t.size < 3 or np.ptp(t) == 0.0 or np.ptp(T) == 0.0:
         return False
-    slope, level = linear.polynomial(t - t[0], T, 1)
+    slope, level = fitting.polynomial(t - t[0], T, 1)
     off = T - (slope * (t - t[0]) + level)
     return bool(np.sqrt(np.mean(off**2)) < _STRAIGHT * np.ptp(T))

@@ -222,7 +222,7 @@ def test_correlation_is_that_of_numpy() -> None:
 
 def test_polynomial_and_running_mean_are_those_of_numpy() -> None:
     x, y = np.linspace(300.0, 900.0, 40), random(40)
-    found = linear.polynomial(x, y, 2)
+    found = fitting.polynomial(x, y, 2)
     assert np.polyval(found, x) == pytest.approx(np.polyval(np.polyfit(x, y, 2), x), abs=1e-10)
     for width in (1, 2, 5, 10):
         mean = np.convolve(y, np.full(width, 1.0 / width), mode="same")
@@ -268,7 +268,7 @@ def test_nelder_and_mead_takes_the_way_of_scipy_and_ends_without_a_way() -> None
 ALL = """
 import hashlib, numpy as np
 from pyrofit.estimate.quadratic import least_within
-from pyrofit.numerics import bands, functions as f, linear
+from pyrofit.numerics import bands, fitting, functions as f, linear
 rng = np.random.default_rng(0)
 total = hashlib.sha256()
 x = rng.uniform(-20.0, 20.0, 3001)
@@ -282,7 +282,7 @@ for rows, columns in ((7, 3), (300, 31), (60, 60)):
     found = [*linear.qr(a), *linear.svd(a), *linear.eigen(square), linear.inverse(square)]
     thin = linear.thin_factor(np.diag(square), lambda k: square[k], 1e-9)
     found += [thin, linear.correlation(a.T), linear.product(b, a)]
-    found += [linear.least_squares(a, b), linear.polynomial(b, b**2 + a[:, 0], 2)]
+    found += [linear.least_squares(a, b), fitting.polynomial(b, b**2 + a[:, 0], 2)]
     low, high = np.full(columns, -0.01), np.full(columns, 0.02)
     found += [least_within(square, linear.product(a.T, b), low, high)]
     found += [bands.solve_lower(bands.cholesky((0.3, -0.2), rows), a)]

@@ -70,9 +70,8 @@ class CompiledFiles:
         name, kind = self._file_name(sig), _of_processor(target_context)
         found = _load(self._folders, name, kind, sig, target_context)
         if found is None and self._wait_for_lock(name, kind):
-            found = _load(
-                self._folders, name, kind, sig, target_context
-            )  # another process was faster
+            # Another process may have been faster.
+            found = _load(self._folders, name, kind, sig, target_context)
             if found is not None:
                 self._unlock()
         if found is None and self._told:
@@ -156,7 +155,7 @@ def _save(folders, name, kind, code):
         else:
             return
     _LOG.warning(
-        "The compiled solver cannot be kept (%s); every process will compile it anew. "
+        "Compiled code cannot be kept (%s); every process will compile it anew. "
         "Make room, or set NUMBA_CACHE_DIR to a folder that can be written.",
         told,
     )

@@ -77,11 +77,11 @@ def _from_start(
     DataError
         The first mass is not the initial mass that the file states, and the study gives none.
     """
-    stated = stated_mass(table, value)
     if is_change_of_fraction(spec.of, kind, value):
         return value + 1.0, ["a change of mass: 100 % is added"]
     if kind != "mass" or PER_START[kind] != spec.of.scales[0]:
         return value, []
+    stated = stated_mass(table, value)
     first, given = float(value[0]), spec.sample_mass_kg
     if stated is None:
         if given is None or not has_other_zero(value, given):

@@ -308,7 +308,7 @@ def _around(
                 method=method,
                 bound=limit_of(x),
                 tied=tied,
-                one_rate=i in assumed or follows_with(at, those, covariance, reach),
+                one_rate=follows_with(at, those, covariance, reach),
             )
         )
     return tuple(estimates), profiles, lowest

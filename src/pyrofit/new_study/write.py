@@ -84,7 +84,11 @@ def init(name: str, files: Files, parent: Path) -> tuple[Path, list[str]]:
         A file is no table of numbers, or the folder cannot be written.
     """
     folder = parent / name
-    _check(name, folder, files)
+    _check_name(name)
+    if folder.exists():
+        raise StudyError(
+            f"{folder}: exists already and is left as it is; choose another name, or move it away"
+        )
     with TemporaryDirectory() as parts:
         single = {kind: _split(kind, paths, Path(parts)) for kind, paths in files.items()}
         records, copied = without_copies(_records(single))
@@ -331,14 +335,6 @@ def _check_name(name: str) -> None:
         raise StudyError(
             f"'{name[:20]}...' has {len(name)} letters, too many for the name of a folder; use at "
             f"most {MOST_LETTERS}"
-        )
-
-
-def _check(name: str, folder: Path, files: Files) -> None:
-    _check_name(name)
-    if folder.exists():
-        raise StudyError(
-            f"{folder}: exists already and is left as it is; choose another name, or move it away"
         )
 
 

@@ -1,4 +1,4 @@
-"""Least squares, and searches without derivatives, in an order that is fixed."""
+"""Least squares, polynomials, and searches without derivatives, in an order that is fixed."""
 
 from collections.abc import Callable
 
@@ -112,3 +112,17 @@ def _moved(
     if share == 0.5 and other > value:
         return second, np.inf, 2
     return second, other, 2
+
+
+def polynomial(x: Floats, y: Floats, degree: int) -> Floats:
+    """Return the coefficients of the polynomial of least squares, the highest power first.
+
+    >>> polynomial(np.array([0.0, 1.0, 2.0]), np.array([1.0, 3.0, 5.0]), 1).round(12).tolist()
+    [2.0, 1.0]
+    """
+    columns = [np.ones(len(x))]
+    for _ in range(degree):
+        columns.insert(0, columns[0] * x)
+    matrix = np.column_stack(columns)
+    size = np.sqrt(np.sum(matrix**2, axis=0))
+    return np.asarray(linear.least_squares(matrix / size, np.asarray(y)) / size)

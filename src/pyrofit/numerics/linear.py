@@ -338,20 +338,6 @@ def least_squares(a: Floats, b: Floats, least: float | None = None) -> Floats:
     return product(rows[kept].T, product(U[:, kept].T, b) / s[kept])
 
 
-def polynomial(x: Floats, y: Floats, degree: int) -> Floats:
-    """Return the coefficients of the polynomial of least squares, the highest power first.
-
-    >>> polynomial(np.array([0.0, 1.0, 2.0]), np.array([1.0, 3.0, 5.0]), 1).round(12).tolist()
-    [2.0, 1.0]
-    """
-    columns = [np.ones(len(x))]
-    for _ in range(degree):
-        columns.insert(0, columns[0] * x)
-    matrix = np.column_stack(columns)
-    size = np.sqrt(np.sum(matrix**2, axis=0))
-    return np.asarray(least_squares(matrix / size, np.asarray(y)) / size)
-
-
 def running_mean(x: Floats, width: int) -> Floats:
     """Return sums of neighbours over the width, as `np.convolve(..., "same")` with zeros outside.
 

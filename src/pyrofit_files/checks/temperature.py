@@ -3,7 +3,7 @@
 import numpy as np
 
 from pyrofit.data.suspect import FEWEST_POINTS, FRONT_K, early_rise_K
-from pyrofit.numerics import linear
+from pyrofit.numerics import fitting
 from pyrofit_files.examined import Examined, FloatArray, Weight
 from pyrofit_files.signals import is_back, is_slab, temperatures
 
@@ -32,7 +32,7 @@ def check_heating_rate(seen: Examined) -> None:
         span = f"{T[1].min():.0f} to {T[1].max():.0f} K"
         seen.say("heating rate", "doubt", f"no ramp through the decomposition: {span}")
         return
-    rate = 60.0 * float(linear.polynomial(T[0][ramp], T[1][ramp], 1)[0])
+    rate = 60.0 * float(fitting.polynomial(T[0][ramp], T[1][ramp], 1)[0])
     ratio = rate / wanted
     if abs(ratio - 1.0) <= _OFF:
         return
