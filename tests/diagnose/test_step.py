@@ -255,12 +255,13 @@ def test_effects_are_judged_until_one_fails_the_one_that_gains_least_first(
     context = SearchContext(np.random.default_rng(2))
     found, without = end_without_superfluous(two_effects_and_a_misfit(share), context)
     assert set(found.end.effects) == {"c_T", "k_T"}
-    failed = verdict._first_failed(found, without, context)
+    _, failed = verdict._judged_beside_misfit(found, without, context)
     penalised = inflation_by_misfit(found).penalised
     order = sorted((0, 1), key=lambda k: penalised(without[k]))
     findings = places.findings_of(found, without, context)
-    unsupported = [k for k in order if verdict._against(findings[k])]
-    assert failed == (unsupported[0], verdict._against(findings[unsupported[0]]))
+    against = [verdict._against(finding, beside_misfit=True) for finding in findings]
+    unsupported = [k for k in order if against[k]]
+    assert failed == (unsupported[0], against[unsupported[0]])
     assert judged == order[:needed_judgements]
     assert len(unsupported) == 1, "the other effect passes"
 

@@ -13,9 +13,11 @@ from pyrofit.diagnose.base.model import name_of, strength_of
 from pyrofit.diagnose.base.prediction import HELD_OUT
 from pyrofit.diagnose.diagnosis import undecided_models
 from pyrofit.diagnose.judge import other_terms, places
+from pyrofit.diagnose.judge import verdict as judging
 from pyrofit.diagnose.judge.claim_tests import Trust
 from pyrofit.diagnose.judge.final_fits import final_fits
 from pyrofit.diagnose.judge.findings import Judged, Verdict
+from pyrofit.diagnose.judge.other_terms import OtherTerm
 from pyrofit.diagnose.judge.places import alternatives, exchanges, without_each, words_against
 from pyrofit.diagnose.judge.verdict import ONE_FLUX, doubts_of, judge
 from pyrofit.diagnose.result.candidates import candidate_records
@@ -242,9 +244,9 @@ def test_one_of_two_planted_effects_explains_a_part_where_one_is_the_most() -> N
     assert any("(mass loss rate" in one for one in signals)
 
 
-@pytest.mark.parametrize("p_value", [0.01, 0.2])
-def test_claim_beside_misfit_is_confirmed_only_where_strengths_agree(
-    monkeypatch: pytest.MonkeyPatch, p_value: float
+@pytest.mark.parametrize("p_value", [None, 0.01, 0.2])
+def test_effect_is_claimed_beside_misfit_only_where_strengths_agree(
+    monkeypatch: pytest.MonkeyPatch, p_value: float | None
 ) -> None:
     def trusted(*given: Any) -> Trust:
         return replace(real(*given), disagree=p_value)
@@ -252,15 +254,43 @@ def test_claim_beside_misfit_is_confirmed_only_where_strengths_agree(
     real = places.trust
     monkeypatch.setattr(places, "trust", trusted)
     verdict = verdict_on(searched(planted(k_T=0.8, c_T=-0.7), most=1))
-    assert verdict.kind == "partly"
-    asked = "the experiments ask for different strengths of "
+    asked = "strengths cannot be compared" if p_value is None else "different strengths of "
+    told = [reason for reason in verdict.reasons if asked in reason]
     if p_value == 0.2:
-        assert verdict.confirmed
-        assert not any(reason.startswith(asked) for reason in verdict.reasons)
+        assert verdict.kind == "partly"
+        assert told == []
     else:
-        assert "seems to lack" in sentences(verdict)
-        assert verdict.reasons[-1].startswith(asked)
-        assert verdict.reasons[-1].endswith("(p = 0.01)")
+        assert verdict.kind == "unknown"
+        assert not verdict.confirmed
+        assert len(told) == 1
+        assert "fits best, but does not pass the tests of a claim" in sentences(verdict)
+
+
+def test_effect_is_claimed_beside_misfit_only_if_no_held_out_laboratory_is_against_it(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def trusted(trial: FittedModel, *given: Any) -> Trust:
+        found = real(trial, *given)
+        other = {f"{HELD_OUT}: A": -30.0, f"{HELD_OUT}: B": 30.0, f"{HELD_OUT}: C": 30.0}
+        return replace(found, gains=found.gains | other)
+
+    real = places.trust
+    monkeypatch.setattr(places, "trust", trusted)
+    verdict = verdict_on(searched(planted(k_T=0.8, c_T=-0.7), most=1))
+    assert verdict.kind == "unknown"
+    assert any("the prediction of A gets worse with " in reason for reason in verdict.reasons)
+
+
+def test_effect_is_claimed_beside_misfit_only_if_no_other_term_fits_as_well(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    other = OtherTerm("a conductivity that varies with temperature", above=3.0, most=20.0)
+    monkeypatch.setattr(
+        judging, "other_terms", lambda end, without, *given: [[other] for _ in without]
+    )
+    verdict = verdict_on(searched(planted(k_T=0.8, c_T=-0.7), most=1))
+    assert verdict.kind == "unknown"
+    assert any(f"may be replaced by {other.words}" in reason for reason in verdict.reasons)
 
 
 def test_alternatives_of_one_of_two_effects_keep_the_other() -> None:
@@ -415,14 +445,22 @@ def test_misfit_that_no_effect_explains_is_unknown() -> None:
     assert abs(found.end_lack.windows[0].start - 20) <= 1
 
 
-def test_effect_that_leaves_a_misfit_explains_a_part() -> None:
+def test_effect_of_one_experiment_is_not_claimed_beside_misfit() -> None:
     y = planted() + 0.8 * strength_of("k_T")[1].typical * column_of(ELSEWHERE, "k_T")
     y[20:26] += 9.0
     verdict = verdict_on(searched(y, ELSEWHERE))
+    assert verdict.kind == "unknown"
+    assert [finding.leading for finding in verdict.findings] == ["k_T"]
+    assert any("strengths cannot be compared" in reason for reason in verdict.reasons)
+
+
+def test_effect_of_both_experiments_explains_a_part_where_misfit_is_left() -> None:
+    y = planted(k_T=0.8)
+    y[20:26] += 9.0
+    verdict = verdict_on(searched(y))
     assert verdict.kind == "partly"
     assert [finding.leading for finding in verdict.findings] == ["k_T"]
     assert "explains only a part of the misfit" in sentences(verdict)
-    assert verdict.suspects == ()
 
 
 def test_effect_behind_a_rejected_one_is_not_claimed_where_misfit_is_left(
@@ -552,7 +590,7 @@ def test_next_experiment_tells_apart_the_two_best_models_of_different_effects() 
     y[20:26] += 12.0
     found = searched(y, ELSEWHERE, EFFECTS)
     verdict = verdict_on(found)
-    assert verdict.kind == "partly"
+    assert verdict.kind == "unknown"
     one, other = undecided_models(verdict.search, verdict)
     assert set(one.effects) != set(other.effects)
     assert one.penalised == min(trial.penalised for trial in found.trials)

@@ -152,7 +152,7 @@ class Settings:
     agreement_level: float = 1e-3
     """Strengths of different experiments disagree if chance is less probable than this."""
     firm_agreement: float = 0.05
-    """The same beside misfit that is left, for a claim to be confirmed."""
+    """The same for a claim beside misfit that is left."""
     informative_gain: float = 2.0
     """Smallest difference of log scores that counts: odds of 7 to 1."""
     deciding_gain: float = 5.4

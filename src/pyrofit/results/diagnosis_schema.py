@@ -27,8 +27,9 @@ class OfOtherTerm(Record):
 class OfEvidence(Record):
     """Tests of an effect besides its gain."""
 
-    agreement: float = Field(
-        description="probability that equal strengths differ as much between experiments"
+    agreement: float | None = Field(
+        description="probability that equal strengths differ as much between experiments; None = "
+        "fewer than two show the effect"
     )
     predictions: dict[str, float] = Field(
         description="rise of the log score by the effect, by prediction"

@@ -30,8 +30,9 @@ class Trust:
 
     limit: str
     """The effect's strength if it rests at a limit, or empty."""
-    disagree: float
-    """Probability that equal strengths look as different between experiments."""
+    disagree: float | None
+    """Probability that equal strengths look as different between experiments. None where fewer than
+    two show the effect."""
     gains: dict[str, float]
     """Gain of the log score, by experiments left out or held out."""
     explains: bool | None
@@ -104,10 +105,11 @@ class Trust:
         return {n: gain for n, gain in self.telling.items() if n.startswith(HELD_OUT)}
 
 
-def disagreement(trial: FittedModel, effect: str, inflation: Inflation) -> float:
+def disagreement(trial: FittedModel, effect: str, inflation: Inflation) -> float | None:
     """Return the probability that a strength common to all experiments looks as different.
 
-    Of an effect that small samples ask for, small samples alone are compared.
+    None where fewer than two experiments show the effect. Of an effect that small samples ask for,
+    small samples alone are compared.
 
     Score test: the columns of d w/d strength, one experiment each, against the fit's residuals.
     The noise has the variance of ``inflation``, and the parameters make one step to fit under it.
@@ -126,7 +128,7 @@ def disagreement(trial: FittedModel, effect: str, inflation: Inflation) -> float
     judging = [base.channels[i][0] for i in model.channels if _judges(trial, effect, [i])]
     moved = [o for o in dict.fromkeys(judging) if _size(parts, owners, o) > 1e-9]
     if len(moved) < 2:
-        return 1.0
+        return None
     d = np.zeros((fit.residuals.size, len(moved) - 1))
     for k, experiment in enumerate(moved[1:]):
         own = [p if o == experiment else 0.0 * p for p, o in zip(parts, owners, strict=True)]

@@ -123,16 +123,6 @@ class Finding:
         return [other.words for other in self.others if other.fits_as_well]
 
     @property
-    def hardly_agrees(self) -> bool:
-        """Whether experiments ask for strengths that differ more than a firm claim allows.
-
-        An effect that stands for another one explains a part of each experiment, with a strength
-        of its own in each. The tests of the residuals tell this only where nothing else is left.
-        """
-        first = self.kept[0]
-        return first.trust.disagree < first.trial.settings.firm_agreement
-
-    @property
     def outvoted(self) -> bool:
         """Whether one held-out experiment is against one of them, and the others are for it."""
         return any(judged.trust.outvoted for judged in self.kept)
@@ -164,8 +154,5 @@ class Verdict:
     @property
     def confirmed(self) -> bool:
         """Whether the effects predict signals that were not fitted, and nothing else does so."""
-        if self.kind == "partly":
-            return not any(
-                f.outvoted or f.open_terms or f.instead or f.hardly_agrees for f in self.findings
-            )
-        return self.kind in ("named", "multiple") and all(f.sure for f in self.findings)
+        sure = self.kind in ("named", "multiple") and all(f.sure for f in self.findings)
+        return sure or self.kind == "partly"

@@ -222,7 +222,7 @@ def words_against(gain: float, spare: float, about: Trust) -> str:
         return f"{about.limit} is at a limit"
     if about.conflict:
         return f"it gains only by moving {', '.join(about.conflict)} away from the known value"
-    if about.disagree < about.settings.agreement_level:
+    if about.disagree is not None and about.disagree < about.settings.agreement_level:
         return f"the experiments ask for different strengths (p = {about.disagree:.1g})"
     if about.informative and not about.predicts:
         gains = about.telling

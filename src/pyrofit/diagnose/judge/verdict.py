@@ -118,47 +118,46 @@ def _partly(
     """
     all_fit, processes = found.end_lack.adequate, context.processes
     taken_away: list[tuple[str, str]] = []
-    while (failed := _first_failed(found, without, context)) is not None:
-        position, reason = failed
+    while True:
+        findings, against = _judged_beside_misfit(found, without, context)
+        if not against:
+            break
+        position, reason = against
         taken_away.append((found.end.effects[position], reason))
         if len(without) == 1:
             return None, taken_away
         found, without = end_without_superfluous(
             with_end(found, without[position], context.rng), context
         )
-    findings = findings_of(found, without, context)
     if found.end_lack.adequate:
         return _explained(found, findings, without, processes), taken_away
     if all_fit or ONE_FLUX in doubts_of(found, findings):
         return None, taken_away
-    leading = [finding.kept[0] for finding in findings]
-    if not any(judged.trust.outvoted for judged in leading):
-        findings = tuple(_with_other_terms(found, findings, without, processes))
     suspects = _suspects(found, processes)
-    reasons = (
-        _rest(found),
-        *_outvoted(leading),
-        *_open_terms(findings),
-        *_instead(findings),
-        *_hardly_agreeing(findings),
-    )
-    part = Verdict("partly", found, tuple(findings), reasons, suspects, tuple(taken_away))
+    part = Verdict("partly", found, findings, (_rest(found),), suspects, tuple(taken_away))
     return part, taken_away
 
 
-def _first_failed(
+def _judged_beside_misfit(
     found: Search, without: Sequence[FittedModel], context: SearchContext
-) -> tuple[int, str] | None:
-    """Return position and reason of the effect that fails a test, of several that gaining least.
+) -> tuple[tuple[Finding, ...], tuple[int, str] | None]:
+    """Return the findings, or position and reason of the effect that fails a test.
 
-    The effects are judged in this order, as predictions of the others may not be needed.
+    Of several that fail it is the one that gains least. The effects are judged in this order, as
+    predictions of the others may not be needed.
     """
-    penalised = inflation_by_misfit(found).penalised
+    penalised, beside_misfit = inflation_by_misfit(found).penalised, not found.end_lack.adequate
     for k in sorted(range(len(without)), key=lambda k: penalised(without[k])):
         (finding,) = findings_of(found, without, context, [k], leading_first=True)
-        if reason := _against(finding):
-            return k, reason
-    return None
+        if reason := _against(finding, beside_misfit):
+            return (), (k, reason)
+    findings = findings_of(found, without, context)
+    if beside_misfit:
+        findings = tuple(_with_other_terms(found, findings, without, context.processes))
+        for k, finding in enumerate(findings):
+            if finding.open_terms:
+                return (), (k, _open_terms(finding))
+    return findings, None
 
 
 def _rest(found: Search) -> str:
@@ -176,10 +175,11 @@ def _rest(found: Search) -> str:
     return f"part of the misfit remains: {'; '.join(places)}"
 
 
-def _against(finding: Finding) -> str:
-    """Say why the leading effect is not claimed beside other misfit, or nothing.
+def _against(finding: Finding, beside_misfit: bool) -> str:
+    """Say why the leading effect is not claimed, or nothing.
 
-    It must pass every test, and all that fit as well must agree with it.
+    It must pass every test, and all that fit as well must agree with it. Beside other misfit
+    nothing may speak against it: an effect that stands for another one explains a part, too.
     """
     first = finding.judged[0]
     if first.rejected:
@@ -188,7 +188,10 @@ def _against(finding: Finding) -> str:
         return finding.open_words
     if not finding.predicted:
         return _unconfirmed(next(j for j in finding.kept if not j.trust.confirmed))
-    return "; ".join(_infirm(finding))
+    doubts = list(_infirm(finding))
+    if beside_misfit:
+        doubts += [*_outvoted(finding.kept), *_instead([finding]), *_hardly_agreeing(finding)]
+    return "; ".join(doubts)
 
 
 def _suspects(found: Search, processes: int) -> tuple[OfSuspect, ...]:
@@ -228,7 +231,9 @@ def doubts_of(found: Search, findings: Sequence[Finding]) -> list[str]:
     kept = [judged for finding in findings for judged in finding.kept]
     doubts += map(_unconfirmed, (j for j in kept if not (j.trust.outvoted or j.trust.confirmed)))
     doubts += _outvoted(kept)
-    doubts += _open_terms(findings)
+    open_terms = [_open_terms(finding) for finding in findings if finding.open_terms]
+    if open_terms:
+        doubts += [*open_terms, "the reason may be an effect outside the catalogue"]
     doubts += _instead(findings)
     doubts += [words for finding in findings for words in _infirm(finding)]
     open_ones = [finding for finding in findings if not finding.group]
@@ -261,15 +266,12 @@ def _infirm(finding: Finding) -> Iterator[str]:
         )
 
 
-def _open_terms(findings: Sequence[Finding]) -> list[str]:
+def _open_terms(finding: Finding) -> str:
     """Name other terms of the model that explain the data nearly as well as an effect does."""
-    said = [
+    return (
         f"{_title(finding.leading)} may be replaced by {', or '.join(finding.open_terms)}, with "
         "nearly as good a fit"
-        for finding in findings
-        if finding.open_terms
-    ]
-    return [*said, "the reason may be an effect outside the catalogue"] if said else []
+    )
 
 
 def _instead(findings: Sequence[Finding]) -> list[str]:
@@ -281,14 +283,21 @@ def _instead(findings: Sequence[Finding]) -> list[str]:
     ]
 
 
-def _hardly_agreeing(findings: Sequence[Finding]) -> list[str]:
-    """Name effects whose strength differs between experiments, beside misfit that is left."""
-    return [
-        f"the experiments ask for different strengths of {_title(finding.leading)} "
-        f"(p = {finding.kept[0].trust.disagree:.2g})"
-        for finding in findings
-        if finding.hardly_agrees
-    ]
+def _hardly_agreeing(finding: Finding) -> Iterator[str]:
+    """Say that the experiments do not agree well enough on the strength for a claim beside misfit.
+
+    An effect that stands for another one explains a part of each experiment, with a strength of its
+    own in each. Where only noise is left, the tests of the residuals tell this.
+    """
+    first = finding.kept[0]
+    p = first.trust.disagree
+    if p is None:
+        yield f"one experiment alone shows {_title(first.effect)}; strengths cannot be compared"
+    elif p < first.trial.settings.firm_agreement:
+        yield (
+            f"the experiments ask for different strengths of {_title(first.effect)} (p = {p:.2g}); "
+            f"{first.trial.settings.firm_agreement:g} is needed beside other misfit"
+        )
 
 
 def _joined(effects: Sequence[str]) -> str:

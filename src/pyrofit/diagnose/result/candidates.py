@@ -109,7 +109,9 @@ def _judgement(judged: list[Judged]) -> _Judgement:
     against = dict.fromkeys(f"{j.effect}: {j.rejected}" for j in judged if j.rejected)
     tested = [j.trust.explains for j in judged]
     return _Judgement(
-        disagree=min(j.trust.disagree for j in judged),
+        disagree=min(
+            (p for p in (j.trust.disagree for j in judged) if p is not None), default=None
+        ),
         predictions=min((j.trust.gains for j in judged), key=lambda g: sum(g.values())),
         explains=None if None in tested else all(tested),
         rejected="; ".join(against),

@@ -76,15 +76,12 @@ def _partly(verdict: Verdict) -> list[str]:
     """Name the confirmed effects, and those suspected for the rest."""
     catalogue = known_effects()
     suspects = " or ".join(catalogue[suspect.effect].title for suspect in verdict.suspects)
-    worse = any(finding.outvoted for finding in verdict.findings)
-    gains = f"the fit and {'most' if worse else 'the'} log scores of predictions"
-    helps = f"They improve {gains}, but explain only a part of the misfit."
+    helps = "They improve the fit and the log scores of predictions, but explain only a part"
     if len(verdict.findings) == 1:
-        helps = f"It improves {gains}, but explains only a part of the misfit."
-    lacks = "lacks" if verdict.confirmed else "seems to lack"
+        helps = "It improves the fit and the log scores of predictions, but explains only a part"
     return [
-        f"The model {lacks} {_several(verdict)}.",
-        helps,
+        f"The model lacks {_several(verdict)}.",
+        f"{helps} of the misfit.",
         _because(verdict.reasons),
         f"Leading candidates for the rest: {suspects}." if suspects else "",
     ]
