@@ -29,6 +29,10 @@ SUSPECT = {
     "K under degrees C": ((TIME, KELVIN + 273.15, MASS), "so that it starts at 300 K"),
     "constant mass": ((TIME, KELVIN, 1.0 + 0 * TIME), "falls by no more than 0 %"),
     "rising mass": ((TIME, KELVIN, 1.0 + 0.33 * TIME / TIME[-1]), "the mass rises by 32 %"),
+    "drift below zero": (
+        (TIME, KELVIN, MASS - 0.25 * TIME / TIME[-1]),
+        "the mass ends 15 % of its start below zero",
+    ),
     "cooling": (
         (TIME, KELVIN - 2.0 * np.clip(KELVIN - 700.0, 0.0, None), MASS),
         "from then on the record cools, which is no heating. Give `until_s: 24",
