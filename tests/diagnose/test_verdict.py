@@ -517,7 +517,7 @@ def test_effects_that_leave_only_noise_are_unknown_where_one_of_them_fails() -> 
     verdict = verdict_on(found)
     assert verdict.kind == "unknown"
     assert not verdict.confirmed
-    assert "c_T: c_T_slope_1_K is at a limit" in verdict.reasons
+    assert "slope of the specific heat: c_T_slope_1_K is at a limit" in verdict.reasons
 
 
 def test_effect_at_its_limit_is_not_claimed() -> None:
@@ -525,7 +525,7 @@ def test_effect_at_its_limit_is_not_claimed() -> None:
     beyond = 1.3 * (q.lower if q.typical < 0.0 else q.upper) / q.typical
     verdict = verdict_on(searched(planted(k_T=beyond)))
     assert verdict.kind == "unknown"
-    assert "k_T: k_T_slope_1_K is at a limit" in verdict.reasons
+    assert "slope of the conductivity: k_T_slope_1_K is at a limit" in verdict.reasons
     assert "fits best, but does not pass the tests of a claim." in sentences(verdict)
 
 

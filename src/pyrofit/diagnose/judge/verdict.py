@@ -104,7 +104,8 @@ def _with_other_terms(
 
 
 def _reasons(findings: Sequence[Finding]) -> list[str]:
-    return [f"{f.effect}: {j.rejected}" for f in findings for j in f.judged[:1] if j.rejected]
+    first = [(finding.effect, finding.judged[0].rejected) for finding in findings]
+    return [f"{_title(effect)}: {rejected}" for effect, rejected in first if rejected]
 
 
 def _partly(
@@ -186,9 +187,8 @@ def _against(finding: Finding, beside_misfit: bool) -> str:
         return first.rejected
     if not finding.group:
         return finding.open_words
-    if not finding.predicted:
-        return _unconfirmed(next(j for j in finding.kept if not j.trust.confirmed))
-    doubts = list(_infirm(finding))
+    doubts = [_unconfirmed(j) for j in finding.kept if not j.trust.confirmed][:1]
+    doubts += _infirm(finding)
     if beside_misfit:
         doubts += [*_outvoted(finding.kept), *_instead([finding]), *_hardly_agreeing(finding)]
     return "; ".join(doubts)
