@@ -54,7 +54,7 @@ def judge(found: Search, rng: np.random.Generator, processes: int = 1) -> Verdic
         if part:
             return part
     if not found.end_lack.adequate:
-        reasons = reasons or [f"{_title(effect)}: {why}" for effect, why in failed]
+        reasons = [f"{_title(effect)}: {why}" for effect, why in failed] or reasons
         reasons.append("the residuals exceed the noise, with every effect that gains enough")
     of_base = found.rounds[0].lack()
     if reasons and of_base.passes:
