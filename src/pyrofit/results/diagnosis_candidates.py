@@ -43,7 +43,7 @@ class OfCandidate(Record):
     ridges: list[OfRidge] = Field(
         description="products of parameters that the data determine better than each"
     )
-    adequate: bool | None = Field(description="no lack of fit; null where not tested")
+    adequate: bool | None = Field(description="no lack of fit of the final model; null for others")
     disagree: float | None = Field(
         description="p of one strength for all experiments; null where not tested"
     )

@@ -414,6 +414,19 @@ def test_curves_that_lack_a_channel_are_refused(tmp_path: Path) -> None:
         curves_of(study, results)
 
 
+def test_leading_model_is_that_of_the_search_if_another_form_fits_better(tmp_path: Path) -> None:
+    study, _ = diagnosed(tmp_path, "named", described())
+    made = found(study, "named")
+    candidates = [{**c, "adequate": c["adequate"] or None} for c in made["candidates"]]
+    (end,) = [c for c in candidates if c["adequate"]]
+    other = {**end, "adequate": None, "penalised": end["penalised"] - 5.0}
+    other["free"] = {"k_T": [*end["free"]["k_T"], "another"]}
+    end["rejected"] = "predictions do not improve"
+    chosen = leading(Diagnosis.model_validate({**made, "candidates": [other, *candidates]}))
+    assert chosen is not None
+    assert chosen.rejected == "predictions do not improve"
+
+
 def test_leading_candidate_is_the_best_that_was_not_rejected(tmp_path: Path) -> None:
     study, _ = diagnosed(tmp_path, "named", described())
     chosen = leading(Diagnosis.model_validate(found(study, "named")))

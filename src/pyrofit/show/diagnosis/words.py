@@ -70,15 +70,19 @@ def setting(found: Diagnosis, name: str, default: float) -> float:
 
 
 def leading(found: Diagnosis) -> OfCandidate | None:
-    """Return the candidate that the verdict rests on, if any: the best with just its effects."""
+    """Return the candidate that the verdict rests on, if any: the final model of the search."""
     effects = set(found.verdict.effects)
     same = [c for c in found.candidates if effects and set(c.effects) == effects]
     return min(same, key=_rank) if same else None
 
 
-def _rank(candidate: OfCandidate) -> tuple[bool, float]:
-    """Put fits that were not rejected first, then those with a lower penalised chi-square."""
-    return bool(candidate.rejected), candidate.penalised
+def _rank(candidate: OfCandidate) -> tuple[bool, bool, float]:
+    """Put the final model first, then fits that were not rejected, the best ones first.
+
+    The final model alone is tested for lack of fit. Another one with the same effects may have
+    further parameters of their form, and fit better.
+    """
+    return candidate.adequate is None, bool(candidate.rejected), candidate.penalised
 
 
 def remark_on_candidate(found: Diagnosis, candidate: OfCandidate) -> str:
