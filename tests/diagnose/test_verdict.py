@@ -546,6 +546,8 @@ def test_effect_that_makes_predictions_worse_is_rejected_with_their_scores() -> 
     assert words_against(100.0, found.spare, judged.trust) == ""
     said = words_against(100.0, found.spare, worse)
     assert "log score -4.0 for slab_60, +26.0 in all" in said
+    unfinished = replace(worse, powers={"slab_60": float("inf")})
+    assert "a run of slab_60 does not finish" in words_against(100.0, found.spare, unfinished)
     none_left = replace(finding, judged=(Judged("k_T", judged.trial, worse, said),))
     assert (none_left.kept, none_left.effects, none_left.predicted) == ([], [], False)
     assert none_left.leading == "k_T"

@@ -1,5 +1,6 @@
 """The effects of the final model that are needed, and the evidence for and against each."""
 
+import math
 from collections.abc import Mapping, Sequence
 from copy import deepcopy
 from dataclasses import replace
@@ -227,6 +228,8 @@ def words_against(gain: float, spare: float, about: Trust) -> str:
     if about.informative and not about.predicts:
         gains = about.telling
         worst = min(about.worse or gains, key=lambda name: gains[name])
+        if math.isinf(about.powers.get(worst, 0.0)):
+            return f"its predictions cannot be compared: a run of {worst} does not finish"
         return (
             f"predictions do not improve: log score {gains[worst]:+.1f} for {worst}, "
             f"{sum(gains.values()):+.1f} in all; "
