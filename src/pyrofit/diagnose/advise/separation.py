@@ -34,6 +34,10 @@ from pyrofit.parallel import parallel_map
 from pyrofit.results.diagnosis_schema import OfExperiment
 from pyrofit.solver.arrays import FloatArray
 from pyrofit.solver.curves import Curves, Request
+from pyrofit.solver.run import LANES
+
+SETS = 2 * (LANES - 1)
+"""Sets beside the leading one that run at once: a record may have 20,000 points."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,11 +123,15 @@ def _forecast(trial: FittedModel, idea: Idea, requests: Mapping[str, Request]) -
     if not curves.status.finished:
         return None
 
-    def stacked(X: FloatArray) -> list[FloatArray | None]:
-        runs = simulated_test(trial, idea, X, requests)
-        return [_stacked(run, requests) if run.status.finished else None for run in runs]
-
     here = _stacked(curves, requests)
+
+    def stacked(X: FloatArray) -> list[FloatArray | None]:
+        found: list[FloatArray | None] = [here]
+        for i in range(1, len(X), SETS):
+            led = simulated_test(trial, idea, np.vstack([X[:1], X[i : i + SETS]]), requests)[1:]
+            found += [_stacked(run, requests) if run.status.finished else None for run in led]
+        return found
+
     slopes, found = derivatives(stacked, x, here)
     if not np.all(found):
         return None
