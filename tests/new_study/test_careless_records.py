@@ -108,3 +108,24 @@ def test_residue_is_that_of_ramps_and_of_holds_that_are_level(tmp_path: Path) ->
         limits = pf.new_study("board", tga=files).parameters["y"]
         assert (limits.lower, limits.upper) == pytest.approx((0.1, 0.2), abs=0.003)
     assert kinetics_limits([draft.read_experiment("tga", slow)]).known_residue is False
+
+
+@pytest.mark.parametrize("last_K", [580.0, 600.0])
+def test_residue_of_records_that_end_while_the_mass_falls_is_below_their_ends(
+    tmp_path: Path, last_K: float
+) -> None:
+    cut = slice(int(np.searchsorted(RAMP_K, last_K)), None)
+    files = [ramp(tmp_path, rate, cut) for rate in RATES]
+    ends = [np.loadtxt(file, delimiter=",", skiprows=1)[-5:, 2].mean() for file in files]
+    y = pf.new_study("board", tga=files).parameters["y"]
+    assert y.lower == 0.0
+    assert y.upper == pytest.approx(min(ends) + 0.02, abs=0.003)
+
+
+@pytest.mark.solver
+def test_fit_of_records_that_end_while_the_mass_falls_holds_the_truth(tmp_path: Path) -> None:
+    cut = slice(int(np.searchsorted(RAMP_K, 605.0)), None)
+    fit = pf.fit(pf.new_study("board", tga=[ramp(tmp_path, rate, cut) for rate in RATES]))
+    for name, truth in (("E_p", 180.0), ("y", 0.15)):
+        low, high = fit.intervals().loc[name, ["low", "high"]]
+        assert low < truth < high

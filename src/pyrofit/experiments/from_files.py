@@ -95,6 +95,8 @@ class Loss:
         Times [s], temperatures [K] and masses, shape (n,) each.
     held
         Whether its temperature is held.
+    end
+        Mass at the end over the initial one, above which the residue is not.
     """
 
     temperature_K: float
@@ -103,6 +105,7 @@ class Loss:
     parts_K: tuple[float, float, float] | None = None
     record: tuple[FloatArray, FloatArray, FloatArray] | None = None
     held: bool = False
+    end: float = 1.0
 
 
 @dataclass(frozen=True)

@@ -29,6 +29,8 @@ MOIST = 0.01
 """Loss of mass up to 420 K above which a sample is moist."""
 NEAR_K = 5.0
 """Distance [K] from the temperature of a hold within which a number in a name means that."""
+_OFF_ZERO = 0.02
+"""Error of the zero of a balance over the initial mass."""
 _PARTS = (-120.0, 20.0), (-100.0, 20.0), (-140.0, 120.0)
 """Limits [K] of reference temperatures about those of an eighth, half, seven eighths of the loss.
 
@@ -108,17 +110,25 @@ class MeasuredFile:
 class KineticsDraft:
     """Where to look for the kinetics: limits [K] of the reference temperature, residue [-].
 
-    ``moisture`` is the loss by drying [-], ``parts_K`` are limits of three parallel reactions.
+    ``moisture`` is the loss by drying [-], ``parts_K`` are limits of three parallel reactions. If
+    the mass still falls at the end of all records, ``least_end`` is the least at an end [-], which
+    the residue does not exceed.
     """
 
     lower_K: float = 500.0
     upper_K: float = 750.0
     residue: float = 0.1
     known_residue: bool = False
+    least_end: float | None = None
     moisture: float = 0.0
     parts_K: tuple[tuple[float, float], ...] = ()
     single: bool = False
     """Whether one reaction of first order describes the records."""
+
+    @property
+    def tells_residue(self) -> bool:
+        """Whether records tell the residue, or the most that it can be."""
+        return self.known_residue or self.least_end is not None
 
     @property
     def charring(self) -> bool:
@@ -171,7 +181,9 @@ class KineticsDraft:
 
     @property
     def residues(self) -> tuple[float, float]:
-        """Limits of the residue: the end of a record shows it but for noise."""
+        """Limits of the residue: the end of a record shows it but for noise, or it is below."""
+        if self.least_end is not None:
+            return 0.0, round(self.least_end, 3)
         return max(round(self.residue - 0.05, 3), 0.0), min(round(self.residue + 0.05, 3), 0.99)
 
 
@@ -265,6 +277,7 @@ def kinetics_limits(records: Iterable[MeasuredFile]) -> KineticsDraft:
         upper + 30.0,
         min(max(round(residue, 4), 0.001), 0.95),
         bool(rests),
+        None if rests else max(min(loss.end for loss in losses) + _OFF_ZERO, 0.05),
         float(np.median([loss.moisture for loss in losses])),
         _parts([loss.parts_K for loss in losses if loss.parts_K is not None]),
         one_reaction_describes(masses, float(np.median(half))),

@@ -231,7 +231,7 @@ def study_text(name: str, tests: Sequence[MeasuredFile]) -> str:
 def _of_scheme(kinetics: KineticsDraft) -> list[str]:
     """Return the parameters of the reactions."""
     if not kinetics.charring:
-        return ["T_p", "E_p", *(["y"] if kinetics.known_residue else [])]
+        return ["T_p", "E_p", *(["y"] if kinetics.tells_residue else [])]
     water = ["w_w", "T_w"] if kinetics.moist else []
     if kinetics.single:
         return ["T_p", "E_p", "y", *water]

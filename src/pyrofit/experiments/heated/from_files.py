@@ -24,6 +24,9 @@ CHAR = 0.1
 AHEAD = 4.0
 """Multiple of the loss in that last tenth that may still come. Char is left if more than `CHAR`
 remains then. At a temperature that is held all of it may come."""
+TAIL = 0.25
+"""Largest loss in that last tenth, over that in the tenth that loses most, of char whose reaction
+is over. A record that ends before tells no char."""
 LEVEL = 0.01
 """Share of the loss of mass above the end up to which a record counts as level."""
 DRY_K, REACTS_K = 420.0, 470.0
@@ -105,7 +108,8 @@ def mass_loss(frames: Frames) -> Loss | None:
     late = mass[9 * mass.size // 10]
     lost_late = late - float(np.median(mass[-5:]))
     is_held = held({"mass_fraction": frame})["set_point_K"] is not None
-    slow = rest - AHEAD * lost_late >= CHAR and not is_held  # char that still loses some mass
+    # Char that still loses some mass.
+    slow = rest - AHEAD * lost_late >= CHAR and not is_held and lost_late < TAIL * _steepest(mass)
     goes_on = lost_late > STILL * (mass[0] - rest) and not slow
     half = float(temperature[below[0]])
     dried = int(np.argmax(temperature >= DRY_K)) if half > REACTS_K else 0
@@ -116,4 +120,11 @@ def mass_loss(frames: Frames) -> Loss | None:
     moisture = max(1.0 - dry / float(mass[0]), 0.0)
     record = frame["time_s"].to_numpy(), temperature, mass
     known = None if goes_on else rest
-    return Loss(half, known, moisture, (parts[0], parts[1], parts[2]), record, is_held)
+    end = float(np.median(mass[-5:]))
+    return Loss(half, known, moisture, (parts[0], parts[1], parts[2]), record, is_held, end)
+
+
+def _steepest(mass: FloatArray) -> float:
+    """Return the largest loss of mass over a tenth of a record."""
+    tenth = max(mass.size // 10, 1)
+    return float(np.max(mass[:-tenth] - mass[tenth:]))
