@@ -85,7 +85,8 @@ class _Walker:
 
     def propose(self, rng: np.random.Generator) -> FloatArray:
         """Return a place on the line."""
-        self.step = float(rng.uniform(self.low, self.high))
+        # `uniform` refuses a line of length -0.0, as in a corner of the limits.
+        self.step = self.low + (self.high - self.low) * float(rng.random())
         return np.clip(self.place + self.step * self.direction, 0.0, 1.0)
 
     def cut_off(self) -> None:

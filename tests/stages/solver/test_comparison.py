@@ -64,6 +64,14 @@ def test_walk_follows_a_narrow_oblique_valley() -> None:
     assert np.ptp(sets[:, 1]) > 3.0
 
 
+def test_walk_begins_in_a_corner_of_the_limits() -> None:
+    problem = Valley()
+    corner = np.array(problem.lower)
+    costs, sets = family.walk_about(problem, corner, 0.0, np.random.default_rng(1))
+    assert np.all(costs[1:] <= 0.0)
+    assert np.array_equal(sets[0], corner)
+
+
 def test_walk_stays_within_the_limits_where_nothing_is_bad() -> None:
     problem = Valley()
     _, sets = explored(1e9, problem)
