@@ -118,6 +118,23 @@ def test_repeats_that_disagree_are_told_and_determine_nothing(tmp_path: Path) ->
     assert any("26 K lower" in line for line in fit.verdict)
 
 
+@pytest.mark.solver
+@pytest.mark.parametrize(
+    ("reactions", "passes"),
+    [(ONE, True), ([(0.5, 590.0, 170e3), (0.5, 635.0, 190e3)], False)],
+    ids=["right model", "misfit of both"],
+)
+def test_misfit_that_two_repeats_share_is_no_scatter_between_them(
+    tmp_path: Path, reactions: list[tuple[float, float, float]], passes: bool
+) -> None:
+    """They start 3 K apart; that scatter, known from two only, would cover a misfit of 1.6 %."""
+    curve = mass(10.0, reactions, 1.0)
+    curves = {f"t_N2_10K_{k}": np.interp(T + off, T, curve) for k, off in ((1, -1.5), (2, 1.5))}
+    fit = fit_of(tmp_path, curves, dict.fromkeys(curves, 10.0))
+    assert fit.goodness is not None
+    assert fit.goodness.passes == passes
+
+
 def test_scatter_from_point_to_point_ignores_what_lasts() -> None:
     white = np.random.default_rng(0).standard_normal(400)
     lasting = 5.0 * np.sin(np.linspace(0.0, 6.0, 400))

@@ -64,7 +64,7 @@ SIGNIFICANT = 2.0
 
 
 @dataclass(frozen=True)
-class _Record:
+class RepeatRecord:
     """One repeat: abscissa (time or temperature), values, fitted curve and noise, shape (n,)."""
 
     at: FloatArray
@@ -99,7 +99,7 @@ def with_repeats(
     """
     found = [own.alone for own in noise]
     for channels in _groups(problem):
-        records = [_record(problem, i, found[i], about) for i in channels]
+        records = [record_of(problem, i, found[i], about) for i in channels]
         free = _are_described(problem, channels)
         for i, model in zip(channels, _of_group(records, free), strict=True):
             found[i] = model
@@ -129,19 +129,20 @@ def _are_described(problem: Problem, channels: Sequence[int]) -> bool:
     return any(name in problem.names for r in repeats if r for name in r.nuisances.values())
 
 
-def _record(
+def record_of(
     problem: Problem, channel: int, noise: NoiseModel, about: Sequence[FloatArray] | None
-) -> _Record:
+) -> RepeatRecord:
+    """Return a repeat, with the fitted curve where those of all channels are given."""
     target = problem.cost.terms[channel][1].target
     temperature = problem.temperature_K(channel)
     held = temperature is not None and is_held(temperature, target.value)
     at = target.time_s if temperature is None or held else temperature
     sizes = USUAL_HELD if held else USUAL if temperature is None else USUAL_HEATED
     curve = None if about is None else about[channel]
-    return _Record(at, target.value, curve, noise, sizes)
+    return RepeatRecord(at, target.value, curve, noise, sizes)
 
 
-def _of_group(records: Sequence[_Record], free: bool) -> list[NoiseModel]:
+def _of_group(records: Sequence[RepeatRecord], free: bool) -> list[NoiseModel]:
     """Return the noise of repeats; ``free``: parameters describe how they differ."""
     low = max(float(r.at.min()) for r in records)
     high = min(float(r.at.max()) for r in records)
@@ -170,7 +171,7 @@ def _of_group(records: Sequence[_Record], free: bool) -> list[NoiseModel]:
     of_points = np.mean([np.interp(grid, r.at, r.points[0] ** 2) for r in records], axis=0)
     usual = np.zeros((0, KNOTS))
     if not free:
-        usual = _usual(knots, straight.mean, records[0].usual)
+        usual = usual_changes(knots, straight.mean, records[0].usual)
         usual *= np.sqrt(USUAL_WEIGHT) * _care(usual, shown, freedom * left)
     total = freedom + (0.0 if free else USUAL_WEIGHT)
     smooth = linear.product(window, np.sum(raw**2, axis=0) - freedom * of_points)
@@ -211,7 +212,7 @@ def _significant(variance: FloatArray, left: FloatArray, freedom: int) -> bool:
     return ratio > 1.0 + SIGNIFICANT * float(np.sqrt(2.0 * WINDOW / freedom))
 
 
-def _usual(knots: FloatArray, mean: FloatArray, sizes: tuple[float, ...]) -> FloatArray:
+def usual_changes(knots: FloatArray, mean: FloatArray, sizes: tuple[float, ...]) -> FloatArray:
     """Return the changes of the mean by the usual level, stretch and start, shape (3, knots)."""
     return np.array(
         [
@@ -249,7 +250,7 @@ def student_factor(freedom: float) -> float:
 
 
 def _with_modes(
-    record: _Record, knots: FloatArray, modes: FloatArray, caution: FloatArray
+    record: RepeatRecord, knots: FloatArray, modes: FloatArray, caution: FloatArray
 ) -> NoiseModel:
     """Return the noise with modes, and the factors that intervals and tests take."""
     own = np.column_stack([np.interp(record.at, knots, mode) for mode in modes.T])

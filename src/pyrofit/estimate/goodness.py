@@ -21,6 +21,7 @@ from pyrofit.cost import Target
 from pyrofit.cost.distances import root_mean_square
 from pyrofit.estimate import lasting_misfit
 from pyrofit.estimate.between_repeats import groups_of_repeats
+from pyrofit.estimate.common_misfit import p_of_repeats
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.noise import NoiseModel
 from pyrofit.estimate.posterior import Posterior
@@ -35,6 +36,8 @@ from pyrofit.solver.arrays import FloatArray
 
 OF_WINDOWS = 0.9
 """Share of the false alarms that windows may raise; chi-square may raise the others."""
+OF_REPEATS = 0.9
+"""The same of the misfit that repeats share. Windows of few repeats hardly raise any."""
 MOST_WINDOWS = 3
 """Windows of misfit of a signal that are named at most."""
 AVERAGED = 0.01
@@ -68,12 +71,20 @@ def goodness_of_fit(likelihood: Likelihood, posterior: Posterior, curves: FloatA
         for noise, part, taken in zip(likelihood.noise, parts, used, strict=True)
     ]
     of_windows = [_p_of_windows(drawn[:, k], own) for k, own in enumerate(largest)]
+    of_repeats = p_of_repeats(likelihood, curves)
     whole = _together(
         _p_of_windows(drawn.max(axis=1), float(largest.max())),
         len(parts) * min(of_squares),
+        min((len(set(of_repeats.values())) * p for p in of_repeats.values()), default=1.0),
     )
     signals = tuple(
-        _signal(likelihood, k, _together(of_windows[k], of_squares[k]), scatters[k], curves)
+        _signal(
+            likelihood,
+            k,
+            _together(of_windows[k], of_squares[k], of_repeats.get(k, 1.0)),
+            scatters[k],
+            curves,
+        )
         for k in range(len(parts))
     )
     return Goodness(whole, signals, tuple(differing(likelihood, curves)))
@@ -139,8 +150,9 @@ def _p_of_squares(noise: NoiseModel, squares: float, freedom: float) -> float:
     return float(fdtrc(freedom, max(noise.sd.size - noise.splines, 1), squares / freedom))
 
 
-def _together(of_windows: float, of_squares: float) -> float:
-    return min(1.0, of_windows / OF_WINDOWS, of_squares / (1.0 - OF_WINDOWS))
+def _together(of_windows: float, of_squares: float, of_repeats: float) -> float:
+    shares = of_windows / OF_WINDOWS, of_squares / (1.0 - OF_WINDOWS), of_repeats / OF_REPEATS
+    return min(1.0, *shares)
 
 
 def _signal(
