@@ -29,6 +29,10 @@ SUSPECT = {
     "K under degrees C": ((TIME, KELVIN + 273.15, MASS), "so that it starts at 300 K"),
     "constant mass": ((TIME, KELVIN, 1.0 + 0 * TIME), "falls by no more than 0 %"),
     "rising mass": ((TIME, KELVIN, 1.0 + 0.33 * TIME / TIME[-1]), "the mass rises by 32 %"),
+    "buoyancy": (
+        (TIME, KELVIN, MASS + 0.01 * (1.0 - np.exp(-TIME / 600.0))),
+        "the mass rises by 0.9 % before it falls",
+    ),
     "drift below zero": (
         (TIME, KELVIN, MASS - 0.25 * TIME / TIME[-1]),
         "the mass ends 15 % of its start below zero",
@@ -73,7 +77,7 @@ def test_suspect_record_is_told_with_the_way_out(
 ) -> None:
     (said,) = suspicions(known_quantities()["mass_fraction"], frame_of(*columns))
     assert words in said
-    assert any(way in said for way in ("give", "Give", "divide", "complete", "Delete", "Make"))
+    assert any(way in said for way in ("give", "Give", "divide", "complete", "Delete", "Make", "Subtract"))
 
 
 @pytest.mark.parametrize(

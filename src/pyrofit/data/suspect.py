@@ -23,6 +23,8 @@ COLD_K = 268.0
 """A record that starts below this is seldom one of a fire test."""
 _LEAST_FALL, _LEAST_RISE, FALLEN, _ABOVE = 0.01, 0.05, 0.97, 1.02
 """Changes of the mass, and a first value, as fractions of the initial mass."""
+_BUOYANCY = 0.005
+"""Rise of the mass of a heated sample over the initial one that a correction leaves seldom."""
 _BELOW_ZERO = -0.1
 """Mass over the initial one that no drift of a sound balance reaches: 22 records of burnt slabs end
 at -0.003 to -0.05, one at -0.15."""
@@ -183,6 +185,11 @@ def _mass(quantity: Quantity, frame: pd.DataFrame) -> str:
         return (
             f"the mass rises by {100.0 * (top / first - 1.0):.0f} % of its start. Subtract the "
             "blank curve, or give the column of the mass of the sample"
+        )
+    if quantity.against_temperature and top > (1.0 + _BUOYANCY) * first:
+        return (
+            f"the mass rises by {100.0 * (top / first - 1.0):.1f} % before it falls, as buoyancy "
+            "makes it. Subtract a run with the empty crucible: the residue is off by as much"
         )
     if first - end < _LEAST_FALL * first:
         return (

@@ -189,9 +189,21 @@ def _written(kind: str, table: FileTable, test: PartOfTable, folder: Path) -> Pa
     for new, name in test.columns.items():
         frame[_header(new, _unit_of(kind, table, name))] = columns[new][rows]
     ending = {"kinetics": "K", "imp": "kW"}[KINDS[kind].stage] if test.how == "unit" else ""
-    path = folder / f"{table.path.stem}_{test.number:g}{ending}.csv"
+    # A number that only tells columns apart must not be taken for a heating rate.
+    label = _letters(int(test.number)) if test.how == "index" else f"{test.number:g}{ending}"
+    path = folder / f"{table.path.stem}_{label}.csv"
     write_csv(path, pd.DataFrame(frame))
     return path
+
+
+def _letters(number: int) -> str:
+    """Return a name of a numbered test.
+
+    >>> _letters(1), _letters(2), _letters(27)
+    ('a', 'b', 'aa')
+    """
+    turns, place = divmod(max(number, 1) - 1, 26)
+    return (_letters(turns) if turns else "") + "abcdefghijklmnopqrstuvwxyz"[place]
 
 
 def _unit_of(kind: str, table: FileTable, name: str) -> str | None:
