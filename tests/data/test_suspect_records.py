@@ -77,7 +77,9 @@ def test_suspect_record_is_told_with_the_way_out(
 ) -> None:
     (said,) = suspicions(known_quantities()["mass_fraction"], frame_of(*columns))
     assert words in said
-    assert any(way in said for way in ("give", "Give", "divide", "complete", "Delete", "Make", "Subtract"))
+    assert any(
+        way in said for way in ("give", "Give", "divide", "complete", "Delete", "Make", "Subtract")
+    )
 
 
 @pytest.mark.parametrize(

@@ -284,6 +284,7 @@ def test_noise_of_a_fit_follows_the_curve_of_least_squares_as_in_a_run(tmp_path:
         ({"tga": (5.0, 20.0)}, "pyrofit run STUDY scheme"),
         ({"tga": (5.0, 5.0)}, ""),
         ({"mcc": (30.0, 60.0)}, ""),
+        ({"dsc": (5.0, 20.0)}, "baseline"),
     ],
 )
 def test_a_scheme_is_advised_only_where_it_can_be_chosen(
@@ -293,13 +294,22 @@ def test_a_scheme_is_advised_only_where_it_can_be_chosen(
     files = []
     for k, rate in enumerate(rates):
         values = mass(rate, ONE, 1.0)[SHARE]
-        if kind == "mcc":
+        if kind != "tga":
             values = -2e7 * np.gradient(values, (T[SHARE] - T[0]) / rate * 60.0)
         rows = np.column_stack([(T[SHARE] - T[0]) / rate * 60.0, T[SHARE], values])
         files.append(tmp_path / f"t_N2_{rate:g}K_{k}.csv")
-        head = f"Time (s),Temperature (K),{'Mass (-)' if kind == 'tga' else 'HRR (W/kg)'}"
+        measured = {"tga": "Mass (-)", "mcc": "HRR (W/kg)", "dsc": "Heat flow (W/kg)"}[kind]
+        head = f"Time (s),Temperature (K),{measured}"
         np.savetxt(files[-1], rows, "%.6f", ",", header=head, comments="")
     study = pf.read_study(init("x", {kind: files}, tmp_path)[0])
-    said, command = next_step(study, "imp")
-    assert command == advice
-    assert ("Measure" in said) == (not advice)
+    signals = tuple(
+        SignalGoodness(name, signal, 0.0, 0.1, 1.0, 0.01, 1.0, 0.1, ())
+        for name, experiment in study.experiments.items()
+        for signal in experiment.signals
+    )
+    said, command = next_step(study, "imp", Goodness(0.0, signals))
+    if advice == "baseline":
+        assert "give the experiment a `baseline`" in said
+    else:
+        assert command == advice
+        assert ("Measure" in said) == (not advice)

@@ -5,6 +5,7 @@ from collections.abc import Iterator, Sequence
 from pyrofit.analysis.differing_repeats import WAY_OUT, differs
 from pyrofit.config import Study
 from pyrofit.experiments import kind_of
+from pyrofit.model.heated import Baseline
 from pyrofit.results.goodness import LEVEL, Goodness, Miss, SignalGoodness
 from pyrofit.scheme.masses import FEWEST_RATES, fitted_rates
 from pyrofit.show.text import listed, several
@@ -18,11 +19,17 @@ OTHER_TOTAL = 0.1
 """Relative difference of integrals that is told."""
 
 
-def next_step(study: Study, stage: str) -> tuple[str, str]:
+def next_step(study: Study, stage: str, found: Goodness) -> tuple[str, str]:
     """Return the step that a misfit of a stage leads to, and its command; empty if it is a test.
 
     Where only heated samples are fitted, it is that of the kinetics.
     """
+    if _lacks_baseline(study, found):
+        return (
+            "The instrument may add a baseline to the heat flow: subtract it, or give the "
+            "experiment a `baseline` of two parameters",
+            "",
+        )
     kinds = {kind_of(study.experiments[t.experiment]).stage for t in study.imp.channels}
     if stage == "imp" and kinds != {"kinetics"}:
         return "The step diagnose searches the missing effect", "pyrofit run STUDY diagnose"
@@ -32,6 +39,13 @@ def next_step(study: Study, stage: str) -> tuple[str, str]:
             "",
         )
     return "More reactions may describe them: run the step scheme", "pyrofit run STUDY scheme"
+
+
+def _lacks_baseline(study: Study, found: Goodness) -> bool:
+    """Tell whether heat flows alone are missed, and the study has no baseline for them."""
+    missed = [s for s in found.signals if s.p < LEVEL or s.far_off]
+    given = [getattr(study.experiments[s.experiment], "baseline", None) for s in missed]
+    return bool(given) and all(one == Baseline() for one in given)
 
 
 def verdict_words(fit: str, found: Goodness) -> str:
@@ -92,7 +106,7 @@ def goodness_sentences(study: Study, stage: str, fit: str, found: Goodness) -> l
         said += missed_most(study, found)
         said.append(
             "Its values are apparent values of this model, and their intervals include the "
-            f"misfit. {next_step(study, stage)[0]}."
+            f"misfit. {next_step(study, stage, found)[0]}."
         )
     said += list(repeats_that_differ(study, found))
     return said

@@ -217,6 +217,20 @@ def test_baseline_of_an_instrument_is_a_line_that_leaves_a_usual_specific_heat()
     assert not [c for c in told if c.words.startswith(words)]
 
 
+@pytest.mark.parametrize("measured", [True, False], ids=["measured times", "times of the rate"])
+def test_no_cause_contradicts_the_times_and_the_start_of_a_record(measured: bool) -> None:
+    study, _ = smoke()
+    key = ("tga_5K", "mass_fraction")
+    kelvin = np.linspace(297.0, 900.0, 200)
+    time = (kelvin - kelvin[0]) * 12.0
+    time[1:-1] += measured * np.random.default_rng(1).normal(0.0, 2.0, 198)
+    frame = pd.DataFrame({"time_s": time, "temperature_K": kelvin, "mass_fraction": 1.0})
+    case = case_of(study, {key: frame})
+    causes = list(possible_corrections(case, [key], []))
+    assert not [c for c in causes if "read as K" in c.words]
+    assert any(c.cause == "heating rate" for c in causes) != measured
+
+
 def test_thermocouple_before_a_backing_is_that_of_the_interface() -> None:
     study, frames = smoke()
     channels = [("slab_25", "back_temperature"), ("slab_60", "back_temperature")]

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from pyrofit.data.heating import usual_rise
 from pyrofit.model.heated import HeatedExperiment
 from pyrofit.model.slab import SlabExperiment
 from pyrofit.quantities.units import ICE_POINT_K
@@ -40,6 +41,10 @@ happens. A shift that leaves the test itself out would explain everything."""
 BELOW_ZERO = -0.02
 """Last mass of a sample over its first one, below which the zero of the balance is off."""
 ROOM_K = 293.15
+ROOM_RANGE_K = (283.0, 323.0)
+"""Temperatures at which records usually start."""
+AGREES = 0.1
+"""Share by which the rise of the recorded temperatures may differ from the heating rate."""
 USUAL_K = (250.0, 450.0)
 """Temperatures of gas and walls that need no explanation."""
 
@@ -89,13 +94,20 @@ def _temperatures(case: RecordedCases, name: str, outside: Sequence[str]) -> Ite
         column = quantity.column if quantity.is_temperature else "temperature_K"
         if column not in case.frames[name, signal]:
             continue
+        first = float(case.frames[name, signal][column].iloc[0])
         for words, unit in _UNITS.items():
+            if _is_of_a_room(first) and not _is_of_a_room(unit(first)):
+                continue  # as it is read, the record starts in a room
             yield LikelyCause(
                 TEMPERATURE,
                 (name,),
                 f"the {quantity.title} of {name}: the temperatures are {words}",
                 column_changed(name, (signal,), column, unit),
             )
+
+
+def _is_of_a_room(kelvin: float) -> bool:
+    return ROOM_RANGE_K[0] <= kelvin <= ROOM_RANGE_K[1]
 
 
 _UNITS: dict[str, Callable[[Any], Any]] = {
@@ -167,6 +179,8 @@ def _rates(case: RecordedCases, name: str) -> Iterator[LikelyCause]:
     experiment = case.experiments[name]
     assert isinstance(experiment, HeatedExperiment)
     given = experiment.heating_rate_K_min
+    if _is_recorded(case, name, given):
+        return
     heated = (e for e in case.experiments.values() if isinstance(e, HeatedExperiment))
     others = {e.heating_rate_K_min for e in heated}
     rates = dict.fromkeys([given * f for f in (*MINUTES, *TENS)] + sorted(others - {given}))
@@ -177,6 +191,22 @@ def _rates(case: RecordedCases, name: str) -> Iterator[LikelyCause]:
             f"the heating rate of {name} is {rate:.3g} K/min, not {given:g} K/min",
             heated_at(name, case.signals(name), rate, rate / given),
         )
+
+
+def _is_recorded(case: RecordedCases, name: str, rate_K_min: float) -> bool:
+    """Tell whether measured times and temperatures rise at the heating rate.
+
+    Times that follow from the rate rise without any scatter, and prove nothing.
+    """
+    for signal in case.signals(name):
+        frame = case.frames[name, signal]
+        rises = np.diff(frame["temperature_K"]) / np.diff(frame["time_s"])
+        scatters = float(np.ptp(rises)) > 1e-3 * abs(float(np.median(rises)))
+        time, T = frame["time_s"].to_numpy(float), frame["temperature_K"].to_numpy(float)
+        usual = 60.0 * usual_rise(time, T)
+        if scatters and abs(usual - rate_K_min) <= AGREES * rate_K_min:
+            return True
+    return False
 
 
 def _zeros(case: RecordedCases, name: str) -> Iterator[LikelyCause]:

@@ -61,7 +61,7 @@ def next_steps(study: Study, facts: Facts) -> Iterator[str]:
     yield from facts.offers
     missed = [stage for stage, found in facts.goodness.items() if not found.describes]
     for stage in missed[1:] if facts.offers else missed:
-        said, command = next_step(study, stage)
+        said, command = next_step(study, stage, facts.goodness[stage])
         by = f" ({command})" if command else ""
         yield f"{STAGES[stage].capitalize()}: {_lower(said)}{by}."
     yield from islice(of_one_rate([e.name for e in ours if e.grade == ONE_RATE]), 1, None)
