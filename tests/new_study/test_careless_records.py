@@ -129,3 +129,15 @@ def test_fit_of_records_that_end_while_the_mass_falls_holds_the_truth(tmp_path: 
     for name, truth in (("E_p", 180.0), ("y", 0.15)):
         low, high = fit.intervals().loc[name, ["low", "high"]]
         assert low < truth < high
+
+
+@pytest.mark.parametrize("kind", ["mcc", "dsc"])
+def test_residue_that_no_record_tells_is_told_as_assumed(tmp_path: Path, kind: str) -> None:
+    time = (RAMP_K - RAMP_K[0]) * 6.0
+    rate = -np.gradient(left(time, RAMP_K), time)
+    header = {"mcc": "Time (s),Temperature (K),HRR (W/g)", "dsc": "Time (s),T (K),Heat flow (W/g)"}
+    path = tmp_path / "foam_N2_10K.csv"
+    table = np.column_stack([time, RAMP_K, 2e4 * rate])
+    np.savetxt(path, table, "%.6f", ",", header=header[kind], comments="")
+    with pytest.warns(UserWarning, match=r"no record of a mass .* residue of 0\.1 kg/kg"):
+        pf.new_study("foam", **{kind: [path]})

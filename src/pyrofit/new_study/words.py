@@ -7,7 +7,7 @@ from pyrofit.experiments import files_of
 from pyrofit.experiments.from_files import Told
 from pyrofit.new_study.columns import FoundColumn
 from pyrofit.new_study.divisor import divisor_of, is_told
-from pyrofit.new_study.draft import MeasuredFile
+from pyrofit.new_study.draft import KineticsDraft, MeasuredFile
 from pyrofit.new_study.pieces import Pieces
 from pyrofit.new_study.plan import PartOfPlan
 from pyrofit.quantities.units import SCALES
@@ -227,8 +227,8 @@ def assumed(records: Iterable[MeasuredFile]) -> list[str]:
 
     So is that a sample in a gas with oxygen does not oxidise.
     """
-    lines = []
-    for run in records:
+    lines, runs = [], list(records)
+    for run in runs:
         lines += [f"{run.path}: {said}" for said in other_number(run)]
         lines += [f"{run.path}: {gas}" for gas in [oxygen_words(run)] if gas]
         if run.lacks == "temperature":
@@ -242,6 +242,13 @@ def assumed(records: Iterable[MeasuredFile]) -> list[str]:
             for role in found.guessed:
                 unit = found.units.get(role, "")
                 lines.append(f"{run.path}: the unit of the {role} is guessed: {unit}")
+    if runs and all(
+        run.of.stage == "kinetics" and "mass_fraction" not in run.frames for run in runs
+    ):
+        lines.append(
+            f"no record of a mass is given; a residue of {KineticsDraft.residue:g} kg/kg is "
+            "assumed. Heats per kg of gas rest on it: give the mass, or change the residue"
+        )
     return lines
 
 
