@@ -135,6 +135,22 @@ def test_misfit_that_two_repeats_share_is_no_scatter_between_them(
     assert fit.goodness.passes == passes
 
 
+@pytest.mark.solver
+@pytest.mark.parametrize("drift", [0.0, 0.01])
+def test_interval_of_a_residue_holds_the_truth_where_balances_drift(
+    tmp_path: Path, drift: float
+) -> None:
+    grown = np.linspace(0.0, 1.0, T.size)
+    curves = {
+        f"t_N2_{rate:g}K": mass(rate, ONE, 1.0) + sign * drift * grown
+        for rate, sign in zip(RATES, (-0.2, 1.0, 1.0), strict=True)
+    }
+    fit = fit_of(tmp_path, curves, dict(zip(curves, RATES, strict=True)))
+    low, high = fit.table.loc["y", "low"], fit.table.loc["y", "high"]
+    assert low < 0.1 < high
+    assert (high - low > 0.008) == bool(drift)
+
+
 def test_scatter_from_point_to_point_ignores_what_lasts() -> None:
     white = np.random.default_rng(0).standard_normal(400)
     lasting = 5.0 * np.sin(np.linspace(0.0, 6.0, 400))

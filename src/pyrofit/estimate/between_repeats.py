@@ -33,6 +33,7 @@ import numpy as np
 from scipy.special import stdtrit
 
 from pyrofit.constants import QUANTILE
+from pyrofit.estimate.between_ends import with_ends
 from pyrofit.estimate.correlation import Correlation
 from pyrofit.estimate.noise import FEWEST_POINTS, REPEATS, NoiseModel
 from pyrofit.estimate.problem import Problem
@@ -93,7 +94,8 @@ def with_repeats(
 ) -> tuple[NoiseModel, ...]:
     """Return the noise of all channels with the scatter between repeats, where there are any.
 
-    It takes the place of one that the noise has already. Described differences do not count where
+    So is that between the ends of records at several rates, see `pyrofit.estimate.between_ends`. It
+    takes the place of one that the noise has already. Described differences do not count where
     fitted curves ``about`` are given. Where parameters describe them and there are no curves, the
     scatter between the aligned records counts.
     """
@@ -103,7 +105,7 @@ def with_repeats(
         free = _are_described(problem, channels)
         for i, model in zip(channels, _of_group(records, free), strict=True):
             found[i] = model
-    return tuple(found)
+    return with_ends(problem, found)
 
 
 def _groups(problem: Problem) -> Iterator[list[int]]:

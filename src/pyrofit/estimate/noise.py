@@ -25,7 +25,7 @@ _ROWS = 64
 """Points that are smoothed together: a window of all has the square of their number."""
 FEWEST_POINTS = 8
 UNITLESS = Shown("–")
-REPEATS = "repeats"
+REPEATS, ENDS = "repeats", "ends"
 TERMS = {
     "timing": "error of the clock",
     "solver": "error of the solver",
@@ -34,6 +34,7 @@ TERMS = {
     "sensitivity": "error of its sensitivity",
     "temperature": "error of the temperature",
     REPEATS: "scatter between repeats",
+    ENDS: "difference of the ends of records",
 }
 """Terms that are added to a standard deviation, in words."""
 
@@ -86,15 +87,15 @@ class NoiseModel:
     may hide errors. They do not weigh the points."""
 
     between: int = 0
-    """Number of modes, the last ones, that are the scatter between repeats."""
+    """Number of modes, the last ones, that are the scatter between records."""
 
     @property
     def alone(self) -> "NoiseModel":
-        """The noise without the scatter between repeats."""
+        """The noise without the scatter between records."""
         if self.modes is None or not self.between:
             return self
         own = self.modes[:, : -self.between]
-        floors = {name: size for name, size in self.floors.items() if name != REPEATS}
+        floors = {name: size for name, size in self.floors.items() if name not in (REPEATS, ENDS)}
         modes = own if own.shape[1] else None
         return replace(self, modes=modes, caution=None, between=0, floors=floors)
 

@@ -1,0 +1,96 @@
+"""Levels at the end of heated samples that differ by more than their noise.
+
+Records of one material at several heating rates end at one residue r in the model. Let e_i be the
+mean of the last points of record i of N, and v_i its variance by the noise. Balances that drift
+from run to run make
+
+    s^2 = sum (e_i - mean e)^2 / (N - 1) - mean v
+
+larger than zero. If that is significant, each record has one more lasting error, which grows in
+proportion to time and has the standard deviation s at its end. Otherwise the residue would be
+determined better than the records agree on it. Few records tell s badly. Intervals and tests take
+it times the quantile of Student's distribution over that of the normal one, with N + 1 degrees of
+freedom: the usual drift counts as two records.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from scipy.special import chdtrc, stdtrit
+
+from pyrofit.constants import QUANTILE
+from pyrofit.estimate.noise import ENDS, NoiseModel
+from pyrofit.estimate.problem import Problem
+from pyrofit.numerics import linear
+from pyrofit.solver.arrays import FloatArray
+
+LAST = 0.05
+"""Part of a record whose mean is its end."""
+STILL = 0.02
+"""Share of the loss in the last tenth up to which a record has a level end."""
+LEVEL = 0.05
+"""Probability of such differences by noise, below which they count."""
+USUAL = 2
+"""Records that the usual drift counts as."""
+
+
+def with_ends(problem: Problem, noise: Sequence[NoiseModel]) -> tuple[NoiseModel, ...]:
+    """Return the noise of all channels, with the difference of the ends where it is significant."""
+    found = list(noise)
+    for channels in _groups(problem):
+        spread = _spread(problem, channels, found)
+        for i in channels if spread else []:
+            time = problem.cost.terms[i][1].target.time_s
+            grown = spread * (time - time[0]) / (time[-1] - time[0])
+            caution = float(stdtrit(len(channels) - 1 + USUAL, 0.975)) / QUANTILE
+            found[i] = _with_mode(found[i], grown, caution, spread)
+    return tuple(found)
+
+
+def _groups(problem: Problem) -> list[list[int]]:
+    """Return the channels of mass fractions that end level, of one gas, one of each test."""
+    groups: dict[float | str, dict[str, int]] = {}
+    for i, (name, signal, _) in enumerate(problem.picks):
+        experiment = problem.runs[name].experiment
+        quantity = experiment.quantity(signal)
+        if not (quantity.against_temperature and quantity.scales[0] == "fraction"):
+            continue
+        values = problem.cost.terms[i][1].target.value
+        tenth = max(values.size // 10, 1)
+        if values[-tenth - 1] - values[-1] > STILL * (values[0] - values[-1]):
+            continue
+        test = experiment.repeat.test if experiment.repeat else name
+        groups.setdefault(getattr(experiment, "oxygen", 0.0), {}).setdefault(test, i)
+    return [list(of.values()) for of in groups.values() if len(of) > 1]
+
+
+def _spread(problem: Problem, channels: Sequence[int], noise: Sequence[NoiseModel]) -> float:
+    """Return s, 0 where it is not significant."""
+    ends, variances = [], []
+    for i in channels:
+        values = problem.cost.terms[i][1].target.value
+        weights = _last(values.size)
+        ends.append(linear.dot(weights, values))
+        variances.append(float((weights @ noise[i].covariance_with(weights[:, None]))[0]))
+    freedom, v = len(ends) - 1, float(np.mean(variances))
+    square = float(np.var(ends, ddof=1))
+    return float(np.sqrt(square - v)) if chdtrc(freedom, freedom * square / v) < LEVEL else 0.0
+
+
+def _last(points: int) -> FloatArray:
+    weights = np.zeros(points)
+    weights[-max(round(LAST * points), 5) :] = 1.0
+    return np.asarray(weights / weights.sum())
+
+
+def _with_mode(noise: NoiseModel, mode: FloatArray, caution: float, size: float) -> NoiseModel:
+    own = np.zeros((mode.size, 0)) if noise.modes is None else noise.modes
+    factors = np.ones(own.shape[1]) if noise.caution is None else noise.caution
+    return replace(
+        noise,
+        modes=np.column_stack([own, mode]),
+        caution=np.append(factors, caution),
+        between=noise.between + 1,
+        floors={**noise.floors, ENDS: size},
+    )
