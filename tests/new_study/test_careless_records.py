@@ -7,6 +7,7 @@ import pytest
 
 import pyrofit as pf
 from pyrofit.data.csvfile import read_table
+from pyrofit.data.suspect import suspicions
 from pyrofit.errors import DataError
 from pyrofit.new_study import draft
 from pyrofit.new_study.draft import kinetics_limits
@@ -141,3 +142,17 @@ def test_residue_that_no_record_tells_is_told_as_assumed(tmp_path: Path, kind: s
     np.savetxt(path, table, "%.6f", ",", header=header[kind], comments="")
     with pytest.warns(UserWarning, match=r"no record of a mass .* residue of 0\.1 kg/kg"):
         pf.new_study("foam", **{kind: [path]})
+
+
+def test_a_digitised_curve_of_few_rows_starts_at_its_first_value(tmp_path: Path) -> None:
+    few = np.linspace(450.0, 800.0, 14)
+    values = np.interp(few, RAMP_K, left((RAMP_K - RAMP_K[0]) * 6.0, RAMP_K))
+    path = tmp_path / "foam_N2_10K.csv"
+    header = "Temperature (K),Mass (%)"
+    np.savetxt(
+        path, np.column_stack([few, 100.0 * values]), "%.3f", ",", header=header, comments=""
+    )
+    record = draft.read_experiment("tga", path)
+    assert record.signals[0].dried_to is None
+    frame = record.frames["mass_fraction"]
+    assert not any("starts at" in said for said in suspicions(record.signals[0].of, frame))

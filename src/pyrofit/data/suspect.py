@@ -30,7 +30,9 @@ _BELOW_ZERO = -0.1
 at -0.003 to -0.05, one at -0.15."""
 _HEAVY, _FEW = 20.0, 0.3
 """Mass [kg/m2] of a thick slab, and a share of it that seems small beside one that burns."""
-_SMOOTHED = 9
+_SMOOTHED, _SHARE = 9, 20
+"""Rows of a median, and the part of a record that they are at most: 1/20. A digitised curve may
+have 14 rows."""
 JUMP = 0.1
 """Share of the initial mass that no step of a record loses and takes back."""
 _WINDOW = 5
@@ -165,7 +167,7 @@ def _fahrenheit(first_C: float, K_min: float) -> str:
 
 
 def _smooth(values: FloatArray) -> FloatArray:
-    rows = min(_SMOOTHED, values.size)
+    rows = min(_SMOOTHED, max(values.size // _SHARE, 1))
     return np.asarray(pd.Series(values).rolling(rows).median().dropna(), float)
 
 

@@ -8,9 +8,9 @@ from run to run make
 
 larger than zero. If that is significant, each record has one more lasting error, which grows in
 proportion to time and has the standard deviation s at its end. Otherwise the residue would be
-determined better than the records agree on it. Few records tell s badly. Intervals and tests take
-it times the quantile of Student's distribution over that of the normal one, with N + 1 degrees of
-freedom: the usual drift counts as two records.
+determined better than the records agree on it. Few records tell s badly. So intervals and tests
+multiply it by the quantile of Student's distribution over that of the normal one. It has N + 1
+degrees of freedom: the usual drift counts as two records.
 """
 
 from collections.abc import Sequence

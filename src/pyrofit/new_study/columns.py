@@ -288,7 +288,8 @@ def _dried_to(table: FileTable, header: str, unit: str, quantity: Quantity) -> f
     of_mass = quantity.scales[0] == "fraction" and "mass" in quantity.scales
     if not of_mass or not header or unit_key(unit) not in fractions:
         return None
-    values = table.columns[header][np.isfinite(table.columns[header])][:_SMOOTHED]
+    values = table.columns[header][np.isfinite(table.columns[header])]
+    values = values[: min(_SMOOTHED, max(values.size // 20, 1))]
     first = float(np.median(values)) * fractions[unit_key(unit)] if values.size else 1.0
     return round(first, 4) if _LEAST_LEFT < first <= FALLEN else None
 
