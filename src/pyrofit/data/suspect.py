@@ -298,8 +298,9 @@ def _gap(quantity: Quantity, frame: pd.DataFrame) -> str:
     if at == 0 and quantity.against_temperature and _is_of_equal_rise(frame["temperature_K"]):
         return ""  # heating begins slowly
     return (
-        f"no point lies between {time[at]:g} s and {time[at + 1]:g} s, where steps are {usual:.3g} "
-        "s elsewhere. The fit tells nothing of this gap; complete the record where you can"
+        f"no point of the {quantity.title} lies between {time[at]:g} s and {time[at + 1]:g} s, "
+        f"where steps are {usual:.3g} s elsewhere. The fit tells nothing of this gap; complete the "
+        "record where you can"
     )
 
 
