@@ -9,7 +9,7 @@ import pandas as pd
 from pyrofit.api import plots
 from pyrofit.api.arguments import count_of, teller_of, wrong
 from pyrofit.api.choices import Key, names_given
-from pyrofit.api.measurements import Data, given_keys, read_measured
+from pyrofit.api.measurements import Data, given_keys, read_to_fit
 from pyrofit.api.studies import Source, read_study
 from pyrofit.api.tables import html_page, text_table
 from pyrofit.config import Study, as_study, calibration_channels, held_out_channels
@@ -82,7 +82,7 @@ def diagnose(
     refuse_programs(study)
     channels = (*calibration_channels(study), *held_out_channels(study))
     keys = [(c.experiment, c.signal) for c in channels]
-    series = read_measured(study, keys, data)
+    series = read_to_fit(study, keys, data)
     _refuse_mixture(study, keys, given_keys(study, data))
     found = examine(study, series, tell, processes, advise, settings=settings)
     return Diagnosis(study, found)

@@ -17,7 +17,7 @@ from pyrofit.api.fit_tables import (
     signals_table,
 )
 from pyrofit.api.fitted import Fit
-from pyrofit.api.measurements import Data, given_keys, read_measured
+from pyrofit.api.measurements import Data, given_keys, read_to_fit
 from pyrofit.api.own_cost import OwnCost
 from pyrofit.api.searching import check_cost, check_optimiser, fit_cost, fit_own_cost
 from pyrofit.api.studies import Source, read_study
@@ -124,7 +124,8 @@ def fit(
     Warns
     -----
     UserWarning
-        The gas around a fitted sample holds oxygen, and the model has no oxidation.
+        The gas around a fitted sample holds oxygen, and the model has no oxidation. Or a record is
+        suspect, such as a mass that rises before it falls.
     """
     study = read_study(study)
     values = values_within(study, "fixed", fixed)
@@ -181,7 +182,7 @@ def fit_likelihood(
     """Return the fit of highest likelihood with its intervals."""
     study, own_weights = task.study, weights_of(task.study, task.keys, weights)
     begin = initial_of(study, task.estimate, initial)
-    series = read_measured(study, task.keys, data)
+    series = read_to_fit(study, task.keys, data)
     asked = of_diagnosis(study, task.channels, task.estimate)
     unweighted = pose_likelihood(study, asked, series, task.fixed)
     likelihood = weighted(unweighted, own_weights)

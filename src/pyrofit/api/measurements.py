@@ -1,6 +1,7 @@
 """Measured series: those that a caller gives, those in files, and computed ones."""
 
 import tempfile
+import warnings
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ from pyrofit.api.curves import MEASURED, Curves, with_unit_attributes
 from pyrofit.api.given_tables import as_table, indexed, named_in_memory
 from pyrofit.api.studies import Source, read_study
 from pyrofit.config import Study
+from pyrofit.data.suspect import LOOK
 from pyrofit.errors import DataError
 from pyrofit.model.signal import Signal
 from pyrofit.quantities.base import Quantity
@@ -71,6 +73,17 @@ def read_measured(
         key: with_unit_attributes(found[key], study.experiments[key[0]].quantity(key[1]))
         for key in keys
     }
+
+
+def read_to_fit(study: Study, wanted: Iterable[Key], data: Data | None) -> dict[Key, pd.DataFrame]:
+    """Return some measured series, and warn of those that are suspect, as `pyrofit check` does."""
+    found = read_measured(study, wanted, data)
+    for (name, signal), frame in found.items():
+        for note in frame.attrs.get("notes", []):
+            if note.startswith(LOOK):
+                line = f"study '{study.name}': {name}, {signal}: {note}"
+                warnings.warn(line, stacklevel=4)
+    return found
 
 
 def _is_checked(study: Study, key: Key, data: Data | None) -> bool:

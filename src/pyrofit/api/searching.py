@@ -10,7 +10,7 @@ from pyrofit.api.choices import Key, complete, in_units
 from pyrofit.api.comparison import series_compared
 from pyrofit.api.fit_tables import derived_table, table_in_units
 from pyrofit.api.fitted import Fit
-from pyrofit.api.measurements import Data, read_measured
+from pyrofit.api.measurements import Data, read_to_fit
 from pyrofit.api.own_cost import OwnCost, own_term
 from pyrofit.api.tasks import Task, begin_of, initial_of
 from pyrofit.config import Study
@@ -74,7 +74,7 @@ def fit_cost(
     """Return the parameters of the lowest cost that an optimiser finds; ``given`` in SI units."""
     specs = study.imp.costs[cost]
     keys = list(dict.fromkeys((spec.experiment, spec.signal) for spec in specs))
-    series = read_measured(study, keys, data)
+    series = read_to_fit(study, keys, data)
     experiments = {name for name, _ in keys}
     estimate = tuple(name for name in study.imp.estimate if name not in given)
     if not estimate:
@@ -98,7 +98,7 @@ def fit_own_cost(
     StudyError
         It returns neither residuals nor a cost.
     """
-    series = read_measured(task.study, task.keys, data)
+    series = read_to_fit(task.study, task.keys, data)
     asked = of_diagnosis(task.study, task.channels, task.estimate)
     problem = pose(task.study, asked, series, task.fixed)
     name = getattr(cost, "__name__", type(cost).__name__)

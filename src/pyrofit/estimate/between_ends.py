@@ -38,7 +38,7 @@ USUAL = 2
 def with_ends(problem: Problem, noise: Sequence[NoiseModel]) -> tuple[NoiseModel, ...]:
     """Return the noise of all channels, with the difference of the ends where it is significant."""
     found = list(noise)
-    for channels in _groups(problem):
+    for channels in _groups(problem, noise):
         spread = _spread(problem, channels, found)
         for i in channels if spread else []:
             time = problem.cost.terms[i][1].target.time_s
@@ -48,13 +48,17 @@ def with_ends(problem: Problem, noise: Sequence[NoiseModel]) -> tuple[NoiseModel
     return tuple(found)
 
 
-def _groups(problem: Problem) -> list[list[int]]:
-    """Return the channels of mass fractions that end level, of one gas, one of each test."""
+def _groups(problem: Problem, noise: Sequence[NoiseModel]) -> list[list[int]]:
+    """Return the channels of mass fractions that end level, of one gas, one of each test.
+
+    A record with a stated uncertainty has no further errors.
+    """
     groups: dict[float | str, dict[str, int]] = {}
     for i, (name, signal, _) in enumerate(problem.picks):
         experiment = problem.runs[name].experiment
         quantity = experiment.quantity(signal)
-        if not (quantity.against_temperature and quantity.scales[0] == "fraction"):
+        of_mass = quantity.against_temperature and quantity.scales[0] == "fraction"
+        if not of_mass or "drift" not in noise[i].floors:
             continue
         values = problem.cost.terms[i][1].target.value
         tenth = max(values.size // 10, 1)
