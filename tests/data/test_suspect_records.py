@@ -46,7 +46,10 @@ SUSPECT = {
         "3 values of the mass jump and come back, the first at 300 s",
     ),
     "dried sample": ((TIME, KELVIN, 0.93 * MASS), "it starts at 93.0 % of the initial mass"),
-    "lost rows": ((TIME[FEW], KELVIN[FEW], MASS[FEW]), "no point of the mass fraction lies between 1194 s and 1440 s"),
+    "lost rows": (
+        (TIME[FEW], KELVIN[FEW], MASS[FEW]),
+        "no point of the mass fraction lies between 1194 s and 1440 s",
+    ),
     "minutes under s": ((TIME / 60.0, KELVIN, MASS), "by 10 K/min if its times are in min"),
     "hours under s": ((TIME / 3600.0, KELVIN, MASS), "by 10 K/min if its times are in h"),
     "seconds under min": ((60.0 * TIME, KELVIN, MASS), "by 0.167 K/min at most. If its times are"),
@@ -63,7 +66,10 @@ SUSPECT = {
         (TIME, HOT, 0.7 * MASS + 0.3 - 5e-4 * np.clip(HOT - 800.0, 0.0, None)),
         "it loses 5.4 % of the mass from 800 to 900 K",
     ),
-    "pause of a day": ((PAUSE, KELVIN, MASS), "no point of the mass fraction lies between 1500 s and 87906 s"),
+    "pause of a day": (
+        (PAUSE, KELVIN, MASS),
+        "no point of the mass fraction lies between 1500 s and 87906 s",
+    ),
 }
 
 
@@ -78,7 +84,8 @@ def test_suspect_record_is_told_with_the_way_out(
     (said,) = suspicions(known_quantities()["mass_fraction"], frame_of(*columns))
     assert words in said
     assert any(
-        way in said for way in ("give", "Give", "divide", "complete", "Delete", "Make", "Subtract")
+        way in said
+        for way in ("give", "Give", "divide", "complete", "Delete", "Make", "Subtract", "Correct")
     )
 
 

@@ -55,14 +55,18 @@ def hold(path: Path, kelvin: float, drift_K: float) -> Path:
 @pytest.mark.solver
 def test_fit_bridges_lost_rows(tmp_path: Path) -> None:
     files = [ramp(tmp_path, rate, slice(95, 115)) for rate in RATES[:2]]
-    fit = pf.fit(pf.new_study("board", tga=files), profiles=False)
+    with pytest.warns(UserWarning, match="no point of the mass fraction lies between"):
+        fit = pf.fit(pf.new_study("board", tga=files), profiles=False)
     assert fit.values["E_p"] == pytest.approx(180.0, rel=0.02)
     assert fit.values["y"] == pytest.approx(0.15, abs=0.003)
 
 
 def test_fit_of_a_constant_mass_is_refused(tmp_path: Path) -> None:
     study = pf.new_study("board", tga=[ramp(tmp_path, 10.0, mass=1.0)])
-    with pytest.raises(DataError, match="all 226 values are equal"):
+    with (
+        pytest.warns(UserWarning, match="so it shows no reaction"),
+        pytest.raises(DataError, match="all 226 values are equal"),
+    ):
         pf.fit(study, profiles=False)
 
 
@@ -156,3 +160,15 @@ def test_a_digitised_curve_of_few_rows_starts_at_its_first_value(tmp_path: Path)
     assert record.signals[0].dried_to is None
     frame = record.frames["mass_fraction"]
     assert not any("starts at" in said for said in suspicions(record.signals[0].of, frame))
+
+
+@pytest.mark.solver
+def test_fit_warns_its_caller_of_a_suspect_record(tmp_path: Path) -> None:
+    files = [ramp(tmp_path, rate) for rate in RATES[:2]]
+    rows = np.loadtxt(files[0], delimiter=",", skiprows=1)
+    rows[:, 2] += 0.01 * np.minimum(np.arange(len(rows)) / 40.0, 1.0)
+    write(files[0], *rows.T)
+    study = pf.new_study("board", tga=files)
+    with pytest.warns(UserWarning, match="rises by 0.8 % before it falls, as buoyancy") as told:
+        pf.fit(study, starts=1, profiles=False)
+    assert Path(told[0].filename) == Path(__file__)

@@ -68,6 +68,11 @@ def diagnose(
         An effect is not known, or the model cannot be diagnosed.
     DataError
         A series is missing or too short, or no run within the limits finishes.
+
+    Warns
+    -----
+    UserWarning
+        A record is suspect, such as a mass that rises before it falls.
     """
     names = [effects] if isinstance(effects, str) else effects
     names = None if names is None else names_given("effects", names)

@@ -1,5 +1,6 @@
 """Measured series: those that a caller gives, those in files, and computed ones."""
 
+import inspect
 import tempfile
 import warnings
 from collections.abc import Iterable, Mapping
@@ -82,8 +83,16 @@ def read_to_fit(study: Study, wanted: Iterable[Key], data: Data | None) -> dict[
         for note in frame.attrs.get("notes", []):
             if note.startswith(LOOK):
                 line = f"study '{study.name}': {name}, {signal}: {note}"
-                warnings.warn(line, stacklevel=4)
+                warnings.warn(line, stacklevel=_level_outside())
     return found
+
+
+def _level_outside() -> int:
+    """Return the stack level, for the function that warns, of the code that calls pyrofit."""
+    level, frame = 0, inspect.currentframe()
+    while frame and frame.f_globals.get("__name__", "").startswith("pyrofit."):
+        level, frame = level + 1, frame.f_back
+    return level
 
 
 def _is_checked(study: Study, key: Key, data: Data | None) -> bool:

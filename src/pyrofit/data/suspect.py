@@ -188,20 +188,23 @@ def _mass(quantity: Quantity, frame: pd.DataFrame) -> str:
             f"the mass rises by {100.0 * (top / first - 1.0):.0f} % of its start. Subtract the "
             "blank curve, or give the column of the mass of the sample"
         )
-    if quantity.against_temperature and top > (1.0 + _BUOYANCY) * first:
-        return (
-            f"the mass rises by {100.0 * (top / first - 1.0):.1f} % before it falls, as buoyancy "
-            "makes it. Subtract a run with the empty crucible: the residue is off by as much"
-        )
     if first - end < _LEAST_FALL * first:
         return (
             f"the mass falls by no more than {100.0 * max(1.0 - end / first, 0.0):.1g} %, so it "
             "shows no reaction. Give the column of the mass, or a longer record"
         )
+    if quantity.against_temperature and top - first > max(
+        _BUOYANCY * first, _noise(frame, quantity)
+    ):
+        return (
+            f"the mass rises by {100.0 * (top / first - 1.0):.1f} % before it falls, as buoyancy "
+            "makes it. Subtract a run with the empty crucible: the residue is off by as much"
+        )
     if end < _BELOW_ZERO * first:
+        way = "" if quantity.against_temperature else ", or give an `offset`"
         return (
             f"the mass ends {-100.0 * end / first:.0f} % of its start below zero: the balance "
-            "drifted, or its zero is wrong. Correct the drift, or give an `offset`"
+            f"drifted, or its zero is wrong. Correct the drift{way}"
         )
     if quantity.scales[0] == "mass per area" and first > _HEAVY and first - end < _FEW * first:
         return (
@@ -209,6 +212,12 @@ def _mass(quantity: Quantity, frame: pd.DataFrame) -> str:
             "with its holder on the load cell. Give the mass of the sample alone, or an `offset`"
         )
     return ""
+
+
+def _noise(frame: pd.DataFrame, quantity: Quantity) -> float:
+    """Return five standard deviations of the points of a record."""
+    steps = np.abs(np.diff(frame[quantity.column].to_numpy(float)))
+    return float(5.0 * np.median(steps) / 0.954)  # the median of |N(0, 2)| is 0.954
 
 
 def standing_out(values: FloatArray, least: float) -> NDArray[np.intp]:

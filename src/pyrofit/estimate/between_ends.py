@@ -1,16 +1,16 @@
 """Levels at the end of heated samples that differ by more than their noise.
 
 Records of one material at several heating rates end at one residue r in the model. Let e_i be the
-mean of the last points of record i of N, and v_i its variance by the noise. Balances that drift
-from run to run make
+mean of the last points of record i of N, and v the mean of their variances by the noise. Balances
+that drift from run to run make
 
-    s^2 = sum (e_i - mean e)^2 / (N - 1) - mean v
+    s^2 = (sum (e_i - mean e)^2 + n_0 v) / (N - 1 + n_0) - v
 
-larger than zero. If that is significant, each record has one more lasting error, which grows in
-proportion to time and has the standard deviation s at its end. Otherwise the residue would be
-determined better than the records agree on it. Few records tell s badly. So intervals and tests
-multiply it by the quantile of Student's distribution over that of the normal one. It has N + 1
-degrees of freedom: the usual drift counts as two records.
+larger than zero, where the noise counts as n_0 = 0.5 records. If the ends differ significantly,
+each record has one more lasting error. It grows in proportion to time and has the standard
+deviation s at the end. Otherwise the residue would be determined better than the records agree on
+it. Few records tell s badly. So intervals and tests multiply it by the quantile of Student's
+distribution, with N - 1 + n_0 degrees of freedom, over that of the normal one.
 """
 
 from collections.abc import Sequence
@@ -22,51 +22,53 @@ from scipy.special import chdtrc, stdtrit
 from pyrofit.constants import QUANTILE
 from pyrofit.estimate.noise import ENDS, NoiseModel
 from pyrofit.estimate.problem import Problem
+from pyrofit.estimate.repeats_agree import is_held
 from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
 
 LAST = 0.05
 """Part of a record whose mean is its end."""
-STILL = 0.02
+STILL = 0.005
 """Share of the loss in the last tenth up to which a record has a level end."""
 LEVEL = 0.05
 """Probability of such differences by noise, below which they count."""
-USUAL = 2
-"""Records that the usual drift counts as."""
+USUAL_WEIGHT = 0.5
+"""n_0, as of repeats."""
 
 
 def with_ends(problem: Problem, noise: Sequence[NoiseModel]) -> tuple[NoiseModel, ...]:
     """Return the noise of all channels, with the difference of the ends where it is significant."""
     found = list(noise)
     for channels in _groups(problem, noise):
+        freedom = len(channels) - 1 + USUAL_WEIGHT
+        caution = float(stdtrit(freedom, 0.975)) / QUANTILE
         spread = _spread(problem, channels, found)
         for i in channels if spread else []:
             time = problem.cost.terms[i][1].target.time_s
             grown = spread * (time - time[0]) / (time[-1] - time[0])
-            caution = float(stdtrit(len(channels) - 1 + USUAL, 0.975)) / QUANTILE
             found[i] = _with_mode(found[i], grown, caution, spread)
     return tuple(found)
 
 
 def _groups(problem: Problem, noise: Sequence[NoiseModel]) -> list[list[int]]:
-    """Return the channels of mass fractions that end level, of one gas, one of each test.
+    """Return the channels of mass fractions of ramps that end level, by gas.
 
-    A record with a stated uncertainty has no further errors.
+    A record with a stated uncertainty has no further errors, and repeats have their own scatter.
     """
-    groups: dict[float | str, dict[str, int]] = {}
+    groups: dict[float | str, list[int]] = {}
     for i, (name, signal, _) in enumerate(problem.picks):
         experiment = problem.runs[name].experiment
-        quantity = experiment.quantity(signal)
-        of_mass = quantity.against_temperature and quantity.scales[0] == "fraction"
-        if not of_mass or "drift" not in noise[i].floors:
+        quantity, temperature = experiment.quantity(signal), problem.temperature_K(i)
+        if temperature is None or quantity.scales[0] != "fraction":
+            continue
+        if experiment.repeat or "drift" not in noise[i].floors:
             continue
         values = problem.cost.terms[i][1].target.value
         tenth = max(values.size // 10, 1)
-        if values[-tenth - 1] - values[-1] > STILL * (values[0] - values[-1]):
-            continue
-        test = experiment.repeat.test if experiment.repeat else name
-        groups.setdefault(getattr(experiment, "oxygen", 0.0), {}).setdefault(test, i)
-    return [list(of.values()) for of in groups.values() if len(of) > 1]
+        level = values[-tenth - 1] - values[-1] <= STILL * (values[0] - values[-1])
+        if level and not is_held(temperature, values):
+            groups.setdefault(getattr(experiment, "oxygen", 0.0), []).append(i)
+    return [channels for channels in groups.values() if len(channels) > 1]
 
 
 def _spread(problem: Problem, channels: Sequence[int], noise: Sequence[NoiseModel]) -> float:
@@ -78,8 +80,9 @@ def _spread(problem: Problem, channels: Sequence[int], noise: Sequence[NoiseMode
         ends.append(linear.dot(weights, values))
         variances.append(float((weights @ noise[i].covariance_with(weights[:, None]))[0]))
     freedom, v = len(ends) - 1, float(np.mean(variances))
-    square = float(np.var(ends, ddof=1))
-    return float(np.sqrt(square - v)) if chdtrc(freedom, freedom * square / v) < LEVEL else 0.0
+    squares = freedom * float(np.var(ends, ddof=1))
+    pooled = (squares + USUAL_WEIGHT * v) / (freedom + USUAL_WEIGHT)
+    return float(np.sqrt(max(pooled - v, 0.0))) if chdtrc(freedom, squares / v) < LEVEL else 0.0
 
 
 def _last(points: int) -> FloatArray:

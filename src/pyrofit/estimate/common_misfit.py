@@ -21,12 +21,12 @@ from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.numerics import linear
 from pyrofit.solver.arrays import FloatArray
 
-BLOCKS = 20
-"""Blocks of a record, each of one mean."""
+BLOCKS, FEWEST = 20, 8
+"""Blocks of a record, each of one mean, and how many all repeats must share for a test."""
 
 
-def p_of_repeats(likelihood: Likelihood, curves: FloatArray) -> dict[int, float]:
-    """Return the probability that scatter makes such a common misfit, by channel of a repeat.
+def p_of_repeats(likelihood: Likelihood, curves: FloatArray) -> list[tuple[Sequence[int], float]]:
+    """Return the channels that repeat one signal, and how probably scatter makes such a misfit.
 
     Parameters
     ----------
@@ -36,8 +36,8 @@ def p_of_repeats(likelihood: Likelihood, curves: FloatArray) -> dict[int, float]
         The simulated channels, one after the other, shape (points,).
     """
     parts = likelihood.split(curves)
-    groups = list(groups_of_repeats(likelihood.problem))
-    return {k: p for group in groups for p in [_p_of(likelihood, group, parts)] for k in group}
+    groups = groups_of_repeats(likelihood.problem)
+    return [(group, _p_of(likelihood, group, parts)) for group in groups]
 
 
 def _p_of(likelihood: Likelihood, group: Sequence[int], curves: Sequence[FloatArray]) -> float:
@@ -45,11 +45,11 @@ def _p_of(likelihood: Likelihood, group: Sequence[int], curves: Sequence[FloatAr
     pairs = zip(group, noise, strict=True)
     records = [record_of(likelihood.problem, k, own, curves) for k, own in pairs]
     middle, averages = _blocks([record.at for record in records])
+    if middle.size < FEWEST:
+        return 1.0
     means = [linear.product(a, r.value) for a, r in zip(averages, records, strict=True)]
     usual = usual_changes(middle, np.mean(means, axis=0), records[0].usual)
     left = middle.size - len(usual)
-    if left < 2:
-        return 1.0
     Q, _ = linear.qr(usual.T)
     rest = np.eye(middle.size) - linear.product(Q, Q.T)
     of_blocks = [

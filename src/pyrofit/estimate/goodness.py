@@ -3,7 +3,8 @@
 Two statistics of the whitened residuals are compared with those of noise, projected as the fit
 projects it. The windows of `pyrofit.estimate.lasting_misfit` find errors that last, chi-square
 finds the others. Of the false alarms, nine tenths may come from windows, one tenth from chi-square.
-The p-value is the smaller one of both probabilities over these shares. Points that scatter more
+Misfit that repeats share is tested beside (`common_misfit`), at nine tenths of the level again. The
+p-value is the smallest probability over these shares. Points that scatter more
 than their noise do not count as an error of the model. Residuals are first divided by their
 scatter from point to point, where that is larger.
 
@@ -71,11 +72,12 @@ def goodness_of_fit(likelihood: Likelihood, posterior: Posterior, curves: FloatA
         for noise, part, taken in zip(likelihood.noise, parts, used, strict=True)
     ]
     of_windows = [_p_of_windows(drawn[:, k], own) for k, own in enumerate(largest)]
-    of_repeats = p_of_repeats(likelihood, curves)
+    shared = p_of_repeats(likelihood, curves)
+    of_repeats = {k: p for group, p in shared for k in group}
     whole = _together(
         _p_of_windows(drawn.max(axis=1), float(largest.max())),
         len(parts) * min(of_squares),
-        min((len(set(of_repeats.values())) * p for p in of_repeats.values()), default=1.0),
+        min((len(shared) * p for _, p in shared), default=1.0),
     )
     signals = tuple(
         _signal(

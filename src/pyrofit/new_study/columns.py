@@ -17,6 +17,7 @@ from pyrofit.new_study.units import guessed_unit, kind_of_unit, kinds_of_units, 
 from pyrofit.quantities import known_quantities
 from pyrofit.quantities.base import Quantity
 from pyrofit.quantities.units import SCALES, header_key, unit_key
+from pyrofit.solver.arrays import FloatArray
 
 _OWN = ("value", "uncertainty")
 """Roles that belong to one signal; the others are shared by all signals of a file."""
@@ -289,8 +290,7 @@ def _dried_to(table: FileTable, header: str, unit: str, quantity: Quantity) -> f
     if not of_mass or not header or unit_key(unit) not in fractions:
         return None
     values = table.columns[header][np.isfinite(table.columns[header])]
-    values = values[: min(_SMOOTHED, max(values.size // 20, 1))]
-    first = float(np.median(values)) * fractions[unit_key(unit)] if values.size else 1.0
+    first = _start(values) * fractions[unit_key(unit)] if values.size else 1.0
     return round(first, 4) if _LEAST_LEFT < first <= FALLEN else None
 
 
@@ -304,11 +304,16 @@ def _is_tared(table: FileTable, header: str, unit: str, scale: str) -> bool:
     return stated is not None and bool(abs(mass[0] - stated) > OTHER_ZERO * stated)
 
 
+def _start(values: FloatArray) -> float:
+    """Return the median of the first nine rows, and of a twentieth of a short record at most."""
+    return float(np.nanmedian(values[: min(_SMOOTHED, max(values.size // 20, 1))]))
+
+
 def _begins_at(table: FileTable, header: str, unit: str, scale: str) -> float | None:
     """Return the first mass over the stated initial mass, where it is a little below."""
     stated = table.stated.mass_kg if table.stated.mass_named else None
     if scale != "mass" or stated is None or _is_tared(table, header, unit, scale):
         return None
     factor = {unit_key(word): factor for word, factor in SCALES["mass"].items()}[unit_key(unit)]
-    first = float(np.nanmedian(table.columns[header][:_SMOOTHED])) * factor / stated
+    first = _start(table.columns[header]) * factor / stated
     return round(first, 4) if first <= FALLEN else None

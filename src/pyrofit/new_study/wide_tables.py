@@ -9,6 +9,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from string import ascii_lowercase
 from typing import Literal
 
 import numpy as np
@@ -62,7 +63,7 @@ def split_table(kind: str, path: Path, folder: Path) -> list[Path]:
     table = read_table(path)
     tests = _tests(kind, table)
     if len(tests) > 1:
-        return [_written(kind, table, test, folder) for test in tests]
+        return [_written(kind, table, test, folder, k) for k, test in enumerate(tests)]
     return split_rows(kind, table, folder) or [path]
 
 
@@ -178,7 +179,7 @@ def _falls(values: FloatArray) -> bool:
     return numbers.size > 1 and bool(numbers[-1] < (1.0 - _LEAST_LOST) * numbers[0])
 
 
-def _written(kind: str, table: FileTable, test: PartOfTable, folder: Path) -> Path:
+def _written(kind: str, table: FileTable, test: PartOfTable, folder: Path, place: int) -> Path:
     columns = {new: table.columns[name] for new, name in test.columns.items()}
     rows = ~np.any([np.isnan(column) for column in columns.values()], axis=0)
     frame: dict[str, FloatArray] = {}
@@ -190,20 +191,20 @@ def _written(kind: str, table: FileTable, test: PartOfTable, folder: Path) -> Pa
         frame[_header(new, _unit_of(kind, table, name))] = columns[new][rows]
     ending = {"kinetics": "K", "imp": "kW"}[KINDS[kind].stage] if test.how == "unit" else ""
     # A number that only tells columns apart must not be taken for a heating rate.
-    label = _letters(int(test.number)) if test.how == "index" else f"{test.number:g}{ending}"
+    label = _letters(place) if test.how == "index" else f"{test.number:g}{ending}"
     path = folder / f"{table.path.stem}_{label}.csv"
     write_csv(path, pd.DataFrame(frame))
     return path
 
 
-def _letters(number: int) -> str:
-    """Return a name of a numbered test.
+def _letters(place: int) -> str:
+    """Return a name of a test by its place from 0.
 
-    >>> _letters(1), _letters(2), _letters(27)
+    >>> _letters(0), _letters(1), _letters(26)
     ('a', 'b', 'aa')
     """
-    turns, place = divmod(max(number, 1) - 1, 26)
-    return (_letters(turns) if turns else "") + "abcdefghijklmnopqrstuvwxyz"[place]
+    turns, letter = divmod(place, 26)
+    return (_letters(turns - 1) if turns else "") + ascii_lowercase[letter]
 
 
 def _unit_of(kind: str, table: FileTable, name: str) -> str | None:

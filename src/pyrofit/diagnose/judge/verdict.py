@@ -130,9 +130,11 @@ def _partly(
         found, without = end_without_superfluous(
             with_end(found, without[position], context.rng), context
         )
+        if all_fit and not found.end_lack.adequate:
+            return None, taken_away
     if found.end_lack.adequate:
         return _explained(found, findings, without, processes), taken_away
-    if all_fit or ONE_FLUX in doubts_of(found, findings):
+    if ONE_FLUX in doubts_of(found, findings):
         return None, taken_away
     suspects = _suspects(found, processes)
     part = Verdict("partly", found, findings, (_rest(found),), suspects, tuple(taken_away))

@@ -185,7 +185,10 @@ def _thresholds(found: Diagnosis) -> list[str]:
         )
     if any(evidence.agreement is not None for evidence in verdict.evidence):
         level = number(setting(found, "agreement_level", 0.001))
-        said.append(f"The test of equal strengths needs a p above {level}.")
+        firm = number(setting(found, "firm_agreement", 0.05))
+        said.append(
+            f"The test of equal strengths needs a p above {level}, beside other misfit {firm}."
+        )
     if any(verdict.other_terms):
         limit = setting(found, "certain_evidence", found.ambiguity)
         said.append(
