@@ -78,7 +78,8 @@ def _spread(problem: Problem, channels: Sequence[int], noise: Sequence[NoiseMode
         values = problem.cost.terms[i][1].target.value
         weights = _last(values.size)
         ends.append(linear.dot(weights, values))
-        variances.append(float((weights @ noise[i].covariance_with(weights[:, None]))[0]))
+        spread = noise[i].covariance_with(weights[:, None])[:, 0]
+        variances.append(linear.dot(weights, spread))
     freedom, v = len(ends) - 1, float(np.mean(variances))
     squares = freedom * float(np.var(ends, ddof=1))
     pooled = (squares + USUAL_WEIGHT * v) / (freedom + USUAL_WEIGHT)

@@ -242,9 +242,9 @@ def assumed(records: Iterable[MeasuredFile]) -> list[str]:
             for role in found.guessed:
                 unit = found.units.get(role, "")
                 lines.append(f"{run.path}: the unit of the {role} is guessed: {unit}")
-    if runs and all(
-        run.of.stage == "kinetics" and "mass_fraction" not in run.frames for run in runs
-    ):
+    signals = [found for run in runs for found in run.signals]
+    heated = all(run.of.stage == "kinetics" for run in runs)
+    if signals and heated and not any("mass" in found.of.scales for found in signals):
         lines.append(
             f"no record of a mass is given; a residue of {KineticsDraft.residue:g} kg/kg is "
             "assumed. Heats per kg of gas rest on it: give the mass, or change the residue"
