@@ -254,7 +254,7 @@ def test_effect_is_claimed_beside_misfit_only_where_strengths_agree(
     real = places.trust
     monkeypatch.setattr(places, "trust", trusted)
     verdict = verdict_on(searched(planted(k_T=0.8, c_T=-0.7), most=1))
-    asked = "strengths cannot be compared" if p_value is None else "different strengths of "
+    asked = "no strengths can be compared" if p_value is None else "different strengths of "
     told = [reason for reason in verdict.reasons if asked in reason]
     if p_value == 0.2:
         assert verdict.kind == "partly"
@@ -451,7 +451,7 @@ def test_effect_of_one_experiment_is_not_claimed_beside_misfit() -> None:
     verdict = verdict_on(searched(y, ELSEWHERE))
     assert verdict.kind == "unknown"
     assert [finding.leading for finding in verdict.findings] == ["k_T"]
-    assert any("strengths cannot be compared" in reason for reason in verdict.reasons)
+    assert any("no strengths can be compared" in reason for reason in verdict.reasons)
 
 
 def test_effect_of_both_experiments_explains_a_part_where_misfit_is_left() -> None:

@@ -193,7 +193,7 @@ def _against(finding: Finding, beside_misfit: bool) -> str:
     doubts += _infirm(finding)
     if beside_misfit:
         doubts += [*_outvoted(finding.kept), *_instead([finding]), *_hardly_agreeing(finding)]
-    return "; ".join(doubts)
+    return ". ".join([*doubts[:1], *(f"{said[0].upper()}{said[1:]}" for said in doubts[1:])])
 
 
 def _suspects(found: Search, processes: int) -> tuple[OfSuspect, ...]:
@@ -294,11 +294,11 @@ def _hardly_agreeing(finding: Finding) -> Iterator[str]:
     first = finding.kept[0]
     p = first.trust.disagree
     if p is None:
-        yield f"one experiment alone shows {_title(first.effect)}; strengths cannot be compared"
+        yield f"one experiment alone shows {_title(first.effect)}, so no strengths can be compared"
     elif p < first.trial.settings.firm_agreement:
         yield (
-            f"the experiments ask for different strengths of {_title(first.effect)} (p = {p:.2g}); "
-            f"{first.trial.settings.firm_agreement:g} is needed beside other misfit"
+            f"the experiments ask for different strengths of {_title(first.effect)} (p = {p:.2g}, "
+            f"{first.trial.settings.firm_agreement:g} is needed beside other misfit)"
         )
 
 
