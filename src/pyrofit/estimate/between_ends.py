@@ -57,11 +57,10 @@ def _groups(problem: Problem, noise: Sequence[NoiseModel]) -> list[list[int]]:
     """
     groups: dict[float | str, list[int]] = {}
     for i, (name, signal, _) in enumerate(problem.picks):
-        experiment = problem.runs[name].experiment
-        quantity, temperature = experiment.quantity(signal), problem.temperature_K(i)
-        if temperature is None or quantity.scales[0] != "fraction":
+        experiment, temperature = problem.runs[name].experiment, problem.temperature_K(i)
+        if temperature is None or experiment.repeat or "drift" not in noise[i].floors:
             continue
-        if experiment.repeat or "drift" not in noise[i].floors:
+        if experiment.quantity(signal).scales[0] != "fraction":
             continue
         values = problem.cost.terms[i][1].target.value
         tenth = max(values.size // 10, 1)
