@@ -457,7 +457,9 @@ def test_every_figure_belongs_to_some_verdict(tmp_path: Path) -> None:
 def test_model_of_the_verdict_is_shown_among_the_best() -> None:
     named = [("e0", "no"), ("e1", "no"), ("e2", "no"), ("e3", "no"), ("k_T", "")]
     rows = [
-        OfCandidate.model_construct(effects=[effect], penalised=float(i), rejected=why)
+        OfCandidate.model_construct(
+            effects=[effect], penalised=float(i), rejected=why, adequate=None if why else True
+        )
         for i, (effect, why) in enumerate(named)
     ]
     verdict = OfVerdict.model_construct(effects=["k_T"])
