@@ -49,11 +49,11 @@ def main(path: str, out: str, *effects: str) -> None:
     kept = f"pyrofit-leave-out-{study.name}-{source_fingerprint('pyrofit.stages.diagnose')}"
     journal = Journal(Path(gettempdir()) / kept)
     file = Path(out)
-    done = {line["left_out"] for line in csv.DictReader(file.open())} if file.exists() else None
-    if done is None:
+    if not file.exists():
         file.write_text(",".join(COLUMNS) + "\n")
+    done = {line["left_out"] for line in csv.DictReader(file.read_text().splitlines())}
     for effect in ("", *(effects or candidate_effects(study))):
-        if (effect or "none") in (done or ()):
+        if (effect or "none") in done:
             continue
         found = row(study, measurements, effect, journal)
         with file.open("a", newline="") as handle:

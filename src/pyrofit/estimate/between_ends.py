@@ -14,12 +14,16 @@ distribution, with N - 1 + n_0 degrees of freedom, over that of the normal one.
 """
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
-from scipy.special import chdtrc, stdtrit
+from scipy.special import chdtrc
 
-from pyrofit.constants import QUANTILE
+from pyrofit.estimate.between_repeats import (
+    USUAL_WEIGHT,
+    student_factor,
+    with_modes,
+    with_repeats,
+)
 from pyrofit.estimate.noise import ENDS, NoiseModel
 from pyrofit.estimate.problem import Problem
 from pyrofit.estimate.repeats_agree import is_held
@@ -32,21 +36,26 @@ STILL = 0.005
 """Share of the loss in the last tenth up to which a record has a level end."""
 LEVEL = 0.05
 """Probability of such differences by noise, below which they count."""
-USUAL_WEIGHT = 0.5
-"""n_0, as of repeats."""
 
 
-def with_ends(problem: Problem, noise: Sequence[NoiseModel]) -> tuple[NoiseModel, ...]:
-    """Return the noise of all channels, with the difference of the ends where it is significant."""
-    found = list(noise)
-    for channels in _groups(problem, noise):
-        freedom = len(channels) - 1 + USUAL_WEIGHT
-        caution = float(stdtrit(freedom, 0.975)) / QUANTILE
+def with_records(
+    problem: Problem,
+    noise: Sequence[NoiseModel],
+    about: Sequence[FloatArray] | None = None,
+) -> tuple[NoiseModel, ...]:
+    """Return the noise of all channels with the scatter between records.
+
+    That is the scatter between repeats, see `with_repeats`, and that of the ends of records at
+    several rates where it is significant.
+    """
+    found = list(with_repeats(problem, noise, about))
+    for channels in _groups(problem, found):
+        caution = np.array([student_factor(len(channels) - 1 + USUAL_WEIGHT)])
         spread = _spread(problem, channels, found)
         for i in channels if spread else []:
             time = problem.cost.terms[i][1].target.time_s
             grown = spread * (time - time[0]) / (time[-1] - time[0])
-            found[i] = _with_mode(found[i], grown, caution, spread)
+            found[i] = with_modes(found[i], grown[:, None], caution, ENDS)
     return tuple(found)
 
 
@@ -89,15 +98,3 @@ def _last(points: int) -> FloatArray:
     weights = np.zeros(points)
     weights[-max(round(LAST * points), 5) :] = 1.0
     return np.asarray(weights / weights.sum())
-
-
-def _with_mode(noise: NoiseModel, mode: FloatArray, caution: float, size: float) -> NoiseModel:
-    own = np.zeros((mode.size, 0)) if noise.modes is None else noise.modes
-    factors = np.ones(own.shape[1]) if noise.caution is None else noise.caution
-    return replace(
-        noise,
-        modes=np.column_stack([own, mode]),
-        caution=np.append(factors, caution),
-        between=noise.between + 1,
-        floors={**noise.floors, ENDS: size},
-    )

@@ -33,7 +33,6 @@ import numpy as np
 from scipy.special import stdtrit
 
 from pyrofit.constants import QUANTILE
-from pyrofit.estimate.between_ends import with_ends
 from pyrofit.estimate.correlation import Correlation
 from pyrofit.estimate.noise import FEWEST_POINTS, REPEATS, NoiseModel
 from pyrofit.estimate.problem import Problem
@@ -94,8 +93,7 @@ def with_repeats(
 ) -> tuple[NoiseModel, ...]:
     """Return the noise of all channels with the scatter between repeats, where there are any.
 
-    So is that between the ends of records at several rates, see `pyrofit.estimate.between_ends`. It
-    takes the place of one that the noise has already. Described differences do not count where
+    It takes the place of one that the noise has already. Described differences do not count where
     fitted curves ``about`` are given. Where parameters describe them and there are no curves, the
     scatter between the aligned records counts.
     """
@@ -105,7 +103,7 @@ def with_repeats(
         free = _are_described(problem, channels)
         for i, model in zip(channels, _of_group(records, free), strict=True):
             found[i] = model
-    return with_ends(problem, found)
+    return tuple(found)
 
 
 def _groups(problem: Problem) -> Iterator[list[int]]:
@@ -256,9 +254,13 @@ def _with_modes(
 ) -> NoiseModel:
     """Return the noise with modes, and the factors that intervals and tests take."""
     own = np.column_stack([np.interp(record.at, knots, mode) for mode in modes.T])
+    return with_modes(record.noise, own, caution, REPEATS)
+
+
+def with_modes(noise: NoiseModel, own: FloatArray, caution: FloatArray, name: str) -> NoiseModel:
+    """Return a noise without scatter between records with modes of it, shape (n, modes)."""
     size = float(np.median(np.sqrt(np.sum(own**2, axis=1))))
-    noise, floors = record.noise, {**record.noise.floors, REPEATS: size}
-    between = own.shape[1]
+    floors, between = {**noise.floors, name: size}, own.shape[1]
     if noise.modes is not None:
         own = np.column_stack([noise.modes, own])
         caution = np.concatenate([np.ones(noise.modes.shape[1]), caution])

@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from pyrofit.estimate.between_repeats import with_repeats
+from pyrofit.estimate.between_ends import with_records
 from pyrofit.estimate.bounded_least_squares import Fit, minimise
 from pyrofit.estimate.channel_noise import noise_of
 from pyrofit.estimate.derivatives import derivatives
@@ -212,7 +212,7 @@ def likelihood_of(
         A channel is too short.
     """
     noise = [noise_of(problem, channel, tolerant=tolerant) for channel in range(len(problem.picks))]
-    found = Likelihood(problem, with_repeats(problem, noise), prior)
+    found = Likelihood(problem, with_records(problem, noise), prior)
     return found.cautious if tolerant else found
 
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from pyrofit.estimate.apparatus import apparatus_error
-from pyrofit.estimate.between_repeats import with_repeats
+from pyrofit.estimate.between_ends import with_records
 from pyrofit.estimate.channel_noise import noise_of
 from pyrofit.estimate.likelihood import Likelihood
 from pyrofit.estimate.noise import NoiseModel
@@ -47,7 +47,7 @@ def with_noise_of_curves(likelihood: Likelihood, sets: Iterable[FloatArray]) -> 
         elif heated[k]:
             noise[k] = _moved(problem, k, noise[k], curve)
     if any(jumps):
-        noise = list(with_repeats(problem, noise, parts))
+        noise = list(with_records(problem, noise, parts))
     return replace(likelihood, noise=tuple(noise))
 
 

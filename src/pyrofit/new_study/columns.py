@@ -8,7 +8,7 @@ import numpy as np
 from pyrofit.data.convert import OTHER_ZERO, stated_mass
 from pyrofit.data.csvfile import FileTable
 from pyrofit.data.stated import Stated
-from pyrofit.data.suspect import FALLEN
+from pyrofit.data.suspect_mass import FALLEN, rows_of_median
 from pyrofit.experiments import measurable
 from pyrofit.new_study.abscissae import abscissa_candidates
 from pyrofit.new_study.headers import is_error, is_usual, may_be, root_of_header, stem_of
@@ -21,8 +21,8 @@ from pyrofit.solver.arrays import FloatArray
 
 _OWN = ("value", "uncertainty")
 """Roles that belong to one signal; the others are shared by all signals of a file."""
-_SMOOTHED, _LEAST_LEFT = 9, 0.5
-"""Rows of the start, and the least fraction that a drying leaves."""
+_LEAST_LEFT = 0.5
+"""The least fraction that a drying leaves."""
 _NEAR_ONE = 0.1
 _NAMELESS = ("value", "signal", "y", "balance", "loadcell", "waage", "column2")
 """Headers of which the unit alone tells the quantity, or one that begins at 1 without a unit."""
@@ -305,8 +305,8 @@ def _is_tared(table: FileTable, header: str, unit: str, scale: str) -> bool:
 
 
 def _start(values: FloatArray) -> float:
-    """Return the median of the first nine rows, and of a twentieth of a short record at most."""
-    return float(np.nanmedian(values[: min(_SMOOTHED, max(values.size // 20, 1))]))
+    """Return the median of the first rows."""
+    return float(np.nanmedian(values[: rows_of_median(values.size)]))
 
 
 def _begins_at(table: FileTable, header: str, unit: str, scale: str) -> float | None:

@@ -43,7 +43,7 @@ def next_step(study: Study, stage: str, found: Goodness) -> tuple[str, str]:
 
 def _lacks_baseline(study: Study, found: Goodness) -> bool:
     """Tell whether heat flows alone are missed, and the study has no baseline for them."""
-    missed = [s for s in found.signals if s.p < LEVEL or s.far_off]
+    missed = _missed(found)
     given = [getattr(study.experiments[s.experiment], "baseline", None) for s in missed]
     return bool(given) and all(one == Baseline() for one in given)
 
@@ -62,7 +62,7 @@ def verdict_words(fit: str, found: Goodness) -> str:
         )
     # Noise may exclude all signals together, and none alone.
     likely = min(found.signals, key=lambda s: s.p)
-    missed = [s for s in found.signals if s.p < LEVEL or s.far_off] or [likely]
+    missed = _missed(found) or [likely]
     excused = [s for s in found.signals if s.p >= LEVEL and s.far_off]
     beside = f" or {_tenth(excused)}" if excused else ""
     worst = max(found.signals, key=_share)
@@ -72,6 +72,10 @@ def verdict_words(fit: str, found: Goodness) -> str:
         f"noise does (p {_below(found.p)}){beside}. The rms misfit is "
         f"at most {100.0 * _share(worst):.2g} % of a signal's range{of}."
     )
+
+
+def _missed(found: Goodness) -> list[SignalGoodness]:
+    return [s for s in found.signals if s.p < LEVEL or s.far_off]
 
 
 def _share(s: SignalGoodness) -> float:

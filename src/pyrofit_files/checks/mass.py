@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pyrofit.data.suspect import JUMP, standing_out
+from pyrofit.data.suspect_mass import JUMP, standing_out
 from pyrofit_files.examined import Examined, FileSignal
 from pyrofit_files.signals import heated_mass, is_heated, slab_mass
 

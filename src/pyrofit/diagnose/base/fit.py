@@ -16,7 +16,7 @@ from pyrofit.diagnose.base.plausible import plausible_ranges
 from pyrofit.diagnose.base.work import within_work
 from pyrofit.diagnose.settings import Settings
 from pyrofit.errors import DataError
-from pyrofit.estimate.between_repeats import with_repeats
+from pyrofit.estimate.between_ends import with_records
 from pyrofit.estimate.channel_noise import noise_of
 from pyrofit.estimate.likelihood import FAILED
 from pyrofit.estimate.noise import NoiseModel
@@ -190,7 +190,7 @@ def with_noise_about(
 
     for i, found in zip(wanted, parallel_map(better, len(wanted), processes), strict=True):
         noise[i] = found or noise[i]
-    likelihood = replace(base.likelihood, noise=with_repeats(problem, noise, parts))
+    likelihood = replace(base.likelihood, noise=with_records(problem, noise, parts))
     return replace(base, likelihood=likelihood.cautious)
 
 

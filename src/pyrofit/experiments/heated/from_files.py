@@ -105,8 +105,8 @@ def mass_loss(frames: Frames) -> Loss | None:
     below = np.flatnonzero(mass < 0.5 * (mass[0] + rest))
     if not below.size or rest >= 0.98 or mass[0] <= 0.0:
         return None
-    late = mass[9 * mass.size // 10]
-    lost_late = late - float(np.median(mass[-5:]))
+    end = float(np.median(mass[-5:]))
+    lost_late = mass[9 * mass.size // 10] - end
     is_held = held({"mass_fraction": frame})["set_point_K"] is not None
     # Char that still loses some mass.
     slow = rest - AHEAD * lost_late >= CHAR and not is_held and lost_late < TAIL * _steepest(mass)
@@ -120,7 +120,6 @@ def mass_loss(frames: Frames) -> Loss | None:
     moisture = max(1.0 - dry / float(mass[0]), 0.0)
     record = frame["time_s"].to_numpy(), temperature, mass
     known = None if goes_on else rest
-    end = float(np.median(mass[-5:]))
     return Loss(half, known, moisture, (parts[0], parts[1], parts[2]), record, is_held, end)
 
 
