@@ -47,7 +47,20 @@ def test_unknown_command_ends_with_code_2(capsys: pytest.CaptureFixture[str]) ->
     with pytest.raises(SystemExit) as ended:
         cli.main(["calibrate"])
     assert ended.value.code == 2
-    assert "invalid choice: 'calibrate'" in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert "there is no command 'calibrate'" in said
+    assert "pyrofit run STUDY" in said
+    assert "choose from" not in said
+
+
+@pytest.mark.parametrize("files", [["a.csv"], ["a.csv", "--tga", "b.csv"]])
+def test_files_without_their_kind_end_with_the_names_of_the_kinds(
+    files: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert cli.main(["init", "mine", *files]) == 2
+    said = capsys.readouterr().err
+    assert "a.csv: the kind of its test is not given" in said
+    assert "--mcc" in said
 
 
 def test_check_says_what_the_study_will_do(capsys: pytest.CaptureFixture[str]) -> None:

@@ -364,7 +364,7 @@ PLACES = [
 ]
 COMMANDS = [
     Case("no command", "", nothing, ("usage: pyrofit", "required: COMMAND")),
-    Case("unknown command", "calibrate", nothing, ("invalid choice: 'calibrate'", "prepare")),
+    Case("unknown command", "calibrate", nothing, ("no command 'calibrate'", "pyrofit run STUDY")),
     Case("unknown option", "check study.yaml --fast", nothing, ("unrecognized arguments: --fast",)),
     Case("no study", "check", nothing, ("the following arguments are required: study",)),
     Case("repetition that is no number", IMP[:-1] + "one", nothing, ("invalid int value: 'one'",)),

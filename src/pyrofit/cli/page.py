@@ -57,7 +57,8 @@ def _section(name: str, text: str, rows: list[str], common: list[str]) -> str:
 
 
 def _rows(parser: argparse.ArgumentParser) -> list[str]:
-    return [_row(a) for a in parser._actions if not isinstance(a, argparse._HelpAction)]
+    shown = (a for a in parser._actions if a.help is not argparse.SUPPRESS)
+    return [_row(a) for a in shown if not isinstance(a, argparse._HelpAction)]
 
 
 def _row(action: argparse.Action) -> str:

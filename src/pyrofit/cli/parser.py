@@ -1,8 +1,9 @@
 """A parser whose commands may get options late."""
 
 import argparse
+import re
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NoReturn
 
 
 def commands_of(commands: Any, name: str) -> Any:
@@ -27,3 +28,12 @@ class Parser(argparse.ArgumentParser):
         """Parse arguments as usual."""
         self.complete()
         return super().parse_known_args(*given, **named)
+
+    def error(self, message: str) -> NoReturn:
+        """End with a message; for an unknown command, without the list of some forty."""
+        if unknown := re.match(r"argument COMMAND: invalid choice: (\S+)", message):
+            message = (
+                f"there is no command {unknown[1]}; a whole study runs by `pyrofit run STUDY`, "
+                "and `pyrofit --help` lists all commands"
+            )
+        super().error(message)

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from pyrofit.discovery import added, loaded
-from pyrofit.errors import ProgramError, PyrofitError
+from pyrofit.errors import ProgramError, PyrofitError, StudyError
 
 
 def add(commands: Any) -> None:
@@ -83,6 +83,7 @@ def _where(given: argparse.Namespace) -> None:
 
 def _add_kinds(init: argparse.ArgumentParser) -> None:
     """Add an option for the files of each kind of experiment."""
+    init.add_argument("unsorted", nargs="*", help=argparse.SUPPRESS)
     from pyrofit.experiments import OF_FILES, files_of
 
     for name in OF_FILES:
@@ -94,6 +95,12 @@ def _init(given: argparse.Namespace) -> None:
     from pyrofit.experiments import OF_FILES
     from pyrofit.new_study.write import init
 
+    if given.unsorted:
+        kinds = ", ".join(f"--{name}" for name in OF_FILES)
+        raise StudyError(
+            f"{given.unsorted[0]}: the kind of its test is not given; name one of {kinds} before "
+            "the files of each kind. `pyrofit look FILE` tells the kind that a file seems to have."
+        )
     study, lines = init(given.name, {kind: getattr(given, kind) for kind in OF_FILES}, Path())
     for line in lines:
         print(line)
@@ -196,11 +203,18 @@ def _check(given: argparse.Namespace) -> None:
 def _preview(study: Any, measured: dict[tuple[str, str], Any], folder: Path | None) -> None:
     """Say what the data are beside all that the limits allow; draw it where asked."""
     from pyrofit.results.files import Results
+    from pyrofit.show.text import several
     from pyrofit.stages.measurements import computed
-    from pyrofit.steps.preview.compute import preview
+    from pyrofit.steps.preview.compute import SETS, preview
     from pyrofit.steps.preview.figures import draw_experiments
     from pyrofit.steps.preview.sentences import sentences_on
 
+    count = len({test for test, _ in measured})
+    print(
+        f"Simulating {SETS} sets within the limits at {several(count, 'test')}; this takes "
+        "seconds to minutes.",
+        file=sys.stderr,
+    )
     made = preview(study, measured | (computed(study, fast=True) if study.is_synthetic else {}))
     for sentence in sentences_on(study, made.found):
         print(sentence)
@@ -218,7 +232,6 @@ def _say_plugins(study: Path, refused: bool) -> None:
     """
     from pyrofit.config.read import plugins_of
     from pyrofit.config.yaml_file import read_mapping
-    from pyrofit.errors import StudyError
 
     names = plugins_of(read_mapping(study))
     if not names:

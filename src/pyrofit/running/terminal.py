@@ -166,10 +166,11 @@ def in_our_words(text: str) -> str:
     r"""Return an error of Snakemake without the places in the workflow, which is not the user's.
 
     >>> in_our_words("MissingRuleException:\nNo rule to produce postrior (if you use ...).")
-    "there is no target 'postrior'; `pyrofit run --list` lists them"
+    "there is no target 'postrior'; `pyrofit run --list` lists them, `pyrofit --help` single steps"
     """
     if unknown := re.search(r"No rule to produce (\S+)", text):
-        return f"there is no target '{unknown[1]}'; `pyrofit run --list` lists them"
+        known = "`pyrofit run --list` lists them, `pyrofit --help` single steps"
+        return f"there is no target '{unknown[1]}'; {known}"
     if text.startswith("Traceback"):
         return f"{text.strip().splitlines()[-1]} (.snakemake/log has more; please report it)"
     return _PLACES.sub("", _ORIGIN.sub("", text.strip())).strip()
