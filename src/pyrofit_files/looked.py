@@ -17,6 +17,7 @@ from pyrofit_files.checks import run_checks
 from pyrofit_files.classify import examine_file
 from pyrofit_files.examined import Examined, FileSignal, FloatArray
 
+_MORE = "`pyrofit init NAME --tga FILE` also reads tables of several tests, and files without times"
 FIRST = 5
 """Points whose median is the initial value."""
 POINTS = 150
@@ -109,6 +110,8 @@ class Looked:
                 if found.weight != "note":
                     where = f"column '{found.column}': " if found.column else ""
                     yield f"  {found.weight}: {where}{found.text}"
+            if not seen.signals:
+                yield f"  {_MORE}"
         for test in self.tests:
             if len(test.records) > 1:
                 names = ", ".join(name for name, _ in test.records)

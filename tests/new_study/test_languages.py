@@ -119,6 +119,16 @@ def test_times_of_a_clock_are_seconds_whatever_the_header_says(name: str, tmp_pa
     assert not run.signals[0].guessed
 
 
+def test_tenths_of_a_second_tell_minutes_and_seconds_from_hours(tmp_path: Path) -> None:
+    cells = [f"{int(s) // 60:02d}:{s % 60:04.1f}" for s in TIME]
+    rows = [f"{c},{T:.3f},{m:.5f}" for c, T, m in zip(cells, KELVIN, MASS, strict=True)]
+    path = tmp_path / "a.csv"
+    path.write_text("\n".join(["Time,Temp (K),Mass (mg)", *rows]) + "\n", encoding="utf-8")
+    (run,) = drafted("x", {"tga": [path]})[1]
+    np.testing.assert_allclose(run.frames["mass_fraction"]["time_s"], TIME, atol=0.051)
+    assert not run.signals[0].guessed
+
+
 @pytest.mark.parametrize("unit", ["mm:ss", "hh:mm:ss", ""])
 def test_a_clock_tells_the_times(unit: str, tmp_path: Path) -> None:
     start = 0 if unit == "mm:ss" else 84_000  # past midnight

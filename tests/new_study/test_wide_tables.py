@@ -28,6 +28,7 @@ def written(path: Path, header: str, columns: list[np.ndarray], delimiter: str =
     [
         ("temperature,rate_3,rate_5,rate_10", False),
         ("T [°C],3 K/min,5 K/min,10 K/min", False),
+        ("Temperature (K),TG 3 °C/min (%),TG 5 °C/min (%),TG 10 °C/min (%)", False),
         ("Temperature (K),Mass% 3K/min,Mass% 5K/min,Mass% 10K/min", False),
         ("Temperature (K),m 3K (%),Temperature (K),m 5K (%),Temperature (K),m 10K (%)", True),
     ],
@@ -45,6 +46,62 @@ def test_rates_as_columns_become_a_test_each(header: str, own: bool, tmp_path: P
     read = read_table(study.parent / "data" / "ALL_5K.csv").columns
     assert read["Time"] == pytest.approx((T - T[0]) * 12.0, abs=0.01)
     assert read["Mass"] == pytest.approx(mass(5), abs=1e-3)
+
+
+PAIRS = "T (K),m (%),T (K),m (%),T (K),m (%)"
+
+
+@pytest.mark.parametrize(
+    "header",
+    [
+        f"3 K/min,,5 K/min,,10 K/min,\n{PAIRS}",
+        f"PMMA 3°C/min,,PMMA 5°C/min,,PMMA 10°C/min,\n{PAIRS}",
+        f"Heating rate,3,,5,,10\n{PAIRS}",
+        f"Heating rate (K/min),3,,5,,10\n{PAIRS}",
+        "3 K/min,,5 K/min,,10 K/min,\nTemperature,Weight,Temperature,Weight,Temperature,Weight\n"
+        "K,%,K,%,K,%",
+        f"Data of the laboratory\n\n3 K/min,3 K/min,5 K/min,5 K/min,10 K/min,10 K/min\n{PAIRS}",
+    ],
+    ids=["rates", "materials", "word", "unit", "units below", "both columns"],
+)
+def test_row_of_rates_above_the_names_tells_the_tests(header: str, tmp_path: Path) -> None:
+    columns = [c for rate in (3, 5, 10) for c in (T, mass(rate))]
+    study, _ = init("x", {"tga": [written(tmp_path / "ALL.csv", header, columns)]}, tmp_path)
+    found = read_study(study).experiments
+    rates = {n: e.heating_rate_K_min for n, e in found.items() if isinstance(e, HeatedExperiment)}
+    assert rates == {"ALL_3K": 3, "ALL_5K": 5, "ALL_10K": 10}
+    assert "CHANGE" not in study.read_text().split("experiments:")[1].split("signals")[0]
+    read = read_table(study.parent / "data" / "ALL_5K.csv").columns
+    assert read["Time"] == pytest.approx((T - T[0]) * 12.0, abs=0.01)
+    assert read["Mass"] == pytest.approx(mass(5), abs=1e-3)
+
+
+def test_blocks_of_one_rate_are_repeats(tmp_path: Path) -> None:
+    columns = [c for rate in (3, 3, 10) for c in (T, mass(rate))]
+    header = f"3 K/min,,3 K/min,,10 K/min,\n{PAIRS}"
+    study, lines = init("x", {"tga": [written(tmp_path / "ALL.csv", header, columns)]}, tmp_path)
+    assert any("ALL_3K_R1, ALL_3K_R2: taken as repeats" in line for line in lines)
+    assert set(read_study(study).experiments) >= {"ALL_3K_R1", "ALL_10K"}
+
+
+@pytest.mark.parametrize("labels", ["Run 3,,Run 5,,Run 10,", "3 K/min,,,,,"])
+def test_number_that_is_no_rate_tells_none(labels: str, tmp_path: Path) -> None:
+    columns = [c for rate in (3, 5, 10) for c in (T, mass(rate))]
+    table = written(tmp_path / "ALL.csv", f"{labels}\n{PAIRS}", columns)
+    files = split_table("tga", table, tmp_path)
+    assert [file.stem for file in files] == ["ALL_a", "ALL_b", "ALL_c"]
+
+
+def test_fluxes_above_the_names_tell_the_tests_of_slabs(tmp_path: Path) -> None:
+    time = np.linspace(0.0, 600.0, 61)
+    columns = [
+        c for peak in (10.0, 20.0) for c in (time, peak * np.exp(-(((time - 300) / 90) ** 2)))
+    ]
+    names = "Time (s),MLR (g/m2s),Time (s),MLR (g/m2s)"
+    table = written(tmp_path / "ALL.csv", f"Heat flux kW/m2,25,,50\n{names}", columns)
+    files = split_table("gasification", table, tmp_path)
+    assert [file.stem for file in files] == ["ALL_25kW", "ALL_50kW"]
+    assert list(read_table(files[1]).columns) == ["Time", "MLR"]
 
 
 @pytest.mark.parametrize(

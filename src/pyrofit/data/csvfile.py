@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
+from pyrofit.data.blocks import Block, blocks_below
 from pyrofit.data.bulk import bulk_values
 from pyrofit.data.cone_exports import is_export, unfolded
 from pyrofit.data.csvheading import Heading, named_columns
@@ -33,6 +34,7 @@ MANY_ROWS = 20_000
 """Files with more lines are read in one piece where that is possible."""
 _LOOKED_AT = 2000
 _CLOCKS = ("hh:mm:ss", "h:mm:ss", "h:min:s", "hms")
+_WITH_TENTHS = re.compile(r"\d+:\d\d[.,]\d+")
 _PARTS_OF_TIME = ("mm:ss", "min:s", "hh:mm")
 
 
@@ -60,6 +62,8 @@ class FileTable:
         Exposed area of the sample [m2], where the file tells it.
     stated : Stated
         Facts that the file states above its table.
+    blocks : tuple of Block
+        Tests side by side, where a row above the names labels them.
     """
 
     path: Path
@@ -71,6 +75,7 @@ class FileTable:
     texts: dict[str, dict[str, int]] = field(default_factory=dict)
     area_m2: float | None = None
     stated: Stated = field(default_factory=Stated)
+    blocks: tuple[Block, ...] = ()
 
     @property
     def faults(self) -> dict[str, tuple[int, str]]:
@@ -162,6 +167,8 @@ def _read(path: Path, notes: list[str]) -> tuple[FileTable, list[str]]:
     layout = layout_of(path, raw, notes)
     above = raw[: max(layout.heading[0].number - 1, 0)] if layout.heading else []
     heading = named_columns(path, layout.heading, notes)
+    labels = next((text for text in reversed(above) if text.strip()), "")
+    blocks = blocks_below(cells_of(path, labels, layout.delimiter), heading.given, heading.names)
     raw = without_footer(path, raw, layout, notes)
     if len(raw) > MANY_ROWS and not layout.marks:
         numerals = numerals_of(rows_of(path, raw[: layout.start + _LOOKED_AT], layout))
@@ -169,10 +176,12 @@ def _read(path: Path, notes: list[str]) -> tuple[FileTable, list[str]]:
         values = bulk_values(raw[layout.start :], layout.delimiter, numerals, width)
         if values is not None:
             notes += _notes_on(numerals)
-            return _as_table(path, heading, values, {}, layout.start + 1, (), notes), above
+            table = _as_table(path, heading, values, {}, layout.start + 1, (), notes)
+            return replace(table, blocks=blocks), above
     lines = rows_of(path, raw, layout)
     whole = first_table(lines, heading, notes) if layout.export else lines
-    return _table(path, heading, whole, notes, layout.marks), above
+    table = _table(path, heading, whole, notes, layout.marks)
+    return replace(table, blocks=blocks), above
 
 
 def holds_unclear_numbers(table: FileTable, name: str) -> bool:
@@ -201,9 +210,10 @@ def _table(
 
 
 def _whole_times(rows: list[FileLine], heading: Heading) -> list[FileLine]:
-    """Return rows whose times mm:ss and hh:mm, as the heading tells them, are hh:mm:ss."""
+    """Return rows whose times mm:ss and hh:mm, as heading or fractions tell them, are hh:mm:ss."""
     of = {i: (u or "").casefold() for i, u in enumerate(heading.units)}
     of = {i: unit for i, unit in of.items() if unit in _PARTS_OF_TIME}
+    of |= {i: "mm:ss" for i, cell in enumerate(rows[0].cells) if _WITH_TENTHS.fullmatch(cell)}
     if not of:
         return rows
     return [
@@ -235,7 +245,7 @@ def _as_table(
     used = [
         i
         for i in range(len(heading.names))
-        if heading.named[i] or i in texts or not np.isnan(values[:, i]).all()
+        if heading.given[i] or i in texts or not np.isnan(values[:, i]).all()
     ]
     names = {i: heading.names[i] for i in used}
     return FileTable(

@@ -18,11 +18,11 @@ _KNOWN = {unit_key(word) for scale in SCALES.values() for word in scale}
 
 @dataclass(frozen=True)
 class Heading:
-    """Name of each column, each its own; its unit; whether the file gives the name."""
+    """Name of each column, each its own; its unit; its name in the file, or nothing."""
 
     names: list[str]
     units: list[str | None]
-    named: list[bool]
+    given: list[str]
 
 
 def named_columns(path: Path, heading: Sequence[FileLine], notes: list[str]) -> Heading:
@@ -39,7 +39,7 @@ def named_columns(path: Path, heading: Sequence[FileLine], notes: list[str]) -> 
         units[: len(cells)] = [_strip_brackets(cell) for cell in cells]
     else:
         names, units = _split_units(names)
-    return Heading(_own_names(names, units, notes), units, [bool(name) for name in names])
+    return Heading(_own_names(names, units, notes), units, names)
 
 
 def is_number(cell: str) -> bool:

@@ -111,7 +111,7 @@ def repeats(cells: Sequence[str], heading: Heading) -> bool:
     """Tell whether a row holds the names of the columns."""
     if len(cells) != len(heading.names):
         return False
-    pairs = zip((cell.lstrip("#") for cell in cells), heading.names, heading.named, strict=True)
+    pairs = zip((cell.lstrip("#") for cell in cells), heading.names, heading.given, strict=True)
     return all(
         bool(cell) and (cell.startswith(name) or name.startswith(cell))
         for cell, name, named in pairs

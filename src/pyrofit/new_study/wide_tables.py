@@ -1,12 +1,13 @@
 """Tables that hold several tests side by side, each in columns of its own.
 
-The names of the columns tell the tests: by a heating rate or a flux with its unit, or by a number.
+The names of the columns, or the row above them, tell the tests: by a heating rate or a flux with
+its unit, or by a number.
 The numbers that tell columns of one name apart do as well. Columns without a number belong to all.
 Where a table of heated samples has no time, that follows from rate and temperature.
 """
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from string import ascii_lowercase
@@ -15,6 +16,7 @@ from typing import Literal
 import numpy as np
 import pandas as pd
 
+from pyrofit.data.blocks import Block
 from pyrofit.data.csvfile import FileTable, read_table
 from pyrofit.experiments import KINDS, files_of, measurable
 from pyrofit.new_study.headers import is_abscissa
@@ -63,7 +65,8 @@ def split_table(kind: str, path: Path, folder: Path) -> list[Path]:
     table = read_table(path)
     tests = _tests(kind, table)
     if len(tests) > 1:
-        return [_written(kind, table, test, folder, k) for k, test in enumerate(tests)]
+        labels = _labels(kind, tests)
+        return [_written(kind, table, *each, folder) for each in zip(tests, labels, strict=True)]
     return split_rows(kind, table, folder) or [path]
 
 
@@ -100,6 +103,8 @@ def _value(text: str) -> float:
 
 def _tests(kind: str, table: FileTable) -> list[PartOfTable]:
     """Return the tests of a table; none if they are not clear."""
+    if table.blocks:
+        return _clear(_test_of_block(kind, table, block) for block in table.blocks)
     labels = {name: label_of_header(kind, name) for name in table.columns}
     own = {name: label for name, label in labels.items() if label is not None}
     shared = [name for name in table.columns if name not in own]
@@ -114,8 +119,23 @@ def _tests(kind: str, table: FileTable) -> list[PartOfTable]:
     rests = [set(columns) for columns in groups.values()]
     if len(groups) < 2 or any(rest != rests[0] for rest in rests):
         return []
-    tests = [_test(kind, table, key, columns, shared) for key, columns in groups.items()]
+    return _clear(_test(kind, table, key, columns, shared) for key, columns in groups.items())
+
+
+def _clear(given: Iterable[PartOfTable | None]) -> list[PartOfTable]:
+    """Return the tests if all are clear."""
+    tests = list(given)
     return [test for test in tests if test is not None] if None not in tests else []
+
+
+def _test_of_block(kind: str, table: FileTable, block: Block) -> PartOfTable | None:
+    """Return the test of a block; a number that no unit and no word make a rate tells no rate."""
+    label = label_of_header(kind, block.label)
+    alone = re.fullmatch(_NUMBER, block.label)
+    key: tuple[float, How] = (0.0, "index")
+    if label is not None and (label.how == "unit" or alone):
+        key = label.number, label.how
+    return _test(kind, table, key, block.columns, [])
 
 
 def _paired(
@@ -179,7 +199,19 @@ def _falls(values: FloatArray) -> bool:
     return numbers.size > 1 and bool(numbers[-1] < (1.0 - _LEAST_LOST) * numbers[0])
 
 
-def _written(kind: str, table: FileTable, test: PartOfTable, folder: Path, place: int) -> Path:
+def _labels(kind: str, tests: Sequence[PartOfTable]) -> list[str]:
+    """Return what tells the file of each test: its number, with that of a repeat, or a letter."""
+    ending = {"kinetics": "K", "imp": "kW"}[KINDS[kind].stage]
+    numbers = [f"{test.number:g}{ending if test.how == 'unit' else ''}" for test in tests]
+    labels = []
+    for k, (test, number) in enumerate(zip(tests, numbers, strict=True)):
+        repeat = f"_R{numbers[:k].count(number) + 1}" if numbers.count(number) > 1 else ""
+        # A number that only tells columns apart must not be taken for a heating rate.
+        labels.append(_letters(k) if test.how == "index" else f"{number}{repeat}")
+    return labels
+
+
+def _written(kind: str, table: FileTable, test: PartOfTable, label: str, folder: Path) -> Path:
     columns = {new: table.columns[name] for new, name in test.columns.items()}
     rows = ~np.any([np.isnan(column) for column in columns.values()], axis=0)
     frame: dict[str, FloatArray] = {}
@@ -189,9 +221,6 @@ def _written(kind: str, table: FileTable, test: PartOfTable, folder: Path, place
         frame["Time (s)"] = (T - T[0]) * per_K * 60.0 / test.rate_K_min
     for new, name in test.columns.items():
         frame[_header(new, _unit_of(kind, table, name))] = columns[new][rows]
-    ending = {"kinetics": "K", "imp": "kW"}[KINDS[kind].stage] if test.how == "unit" else ""
-    # A number that only tells columns apart must not be taken for a heating rate.
-    label = _letters(place) if test.how == "index" else f"{test.number:g}{ending}"
     path = folder / f"{table.path.stem}_{label}.csv"
     write_csv(path, pd.DataFrame(frame))
     return path

@@ -252,6 +252,25 @@ def assumed(records: Iterable[MeasuredFile]) -> list[str]:
     return lines
 
 
+def said_of_scheme(kinetics: KineticsDraft) -> list[str]:
+    """Say what one reaction leaves out of the records of a solid that hardly chars."""
+    if kinetics.charring or not kinetics.known_residue:
+        return []
+    left = f"the study has one reaction, as the residue is {kinetics.residue:.3g} kg/kg"
+    lines = []
+    if kinetics.moist:
+        lines.append(
+            f"{left}; it has no drying, yet {100.0 * kinetics.moisture:.2g} % of the mass is lost "
+            "up to 420 K. Begin the fit after it, or add a reaction, as config/pine.yaml has"
+        )
+    if not kinetics.single:
+        lines.append(
+            f"{left}; one reaction of first order does not describe these records. "
+            "`pyrofit run STUDY scheme` compares schemes"
+        )
+    return lines
+
+
 def said_of_repeats(tests: Iterable[MeasuredFile]) -> list[str]:
     """Say which files are taken as repeats of one test."""
     return [

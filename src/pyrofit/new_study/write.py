@@ -33,6 +33,7 @@ from pyrofit.new_study.words import (
     lines_on_file,
     number_comment,
     said_of_repeats,
+    said_of_scheme,
     signal_lines,
 )
 from pyrofit.results.files import write_bytes, write_text
@@ -98,7 +99,7 @@ def init(name: str, files: Files, parent: Path) -> tuple[Path, list[str]]:
     lines = (
         [line for run in records for line in lines_on_file(run)] + copied + said_of_repeats(tests)
     )
-    lines += said_of_pieces(tests)
+    lines += [*said_of_pieces(tests), *said_of_scheme(_kinetics(records))]
     lines = [line.replace(parts, f"{folder / 'data'}") for line in lines]
     lines = [*_said_of_tables(files, single), *lines]
     lines += held_out(heated) if heated.held_out else []
@@ -181,9 +182,7 @@ def study_text(name: str, tests: Sequence[MeasuredFile]) -> str:
     synthetic = any(test.path is None for test in tests)
     records = [run for test in tests for run in test.repeats or (test,)]
     measured = [run for run in records if run.path is not None]
-    kinetics = (
-        draft.kinetics_limits(_inert(measured)) if measured else KineticsDraft(550.0, 680.0, 0.02)
-    )
+    kinetics = _kinetics(measured) if measured else KineticsDraft(550.0, 680.0, 0.02)
     heated, slabs = (part_of(stage, tests) for stage in STAGES)
     shown = [_HEATS[key] for key in heats(heated.fitted)]
     burns = _COMBUSTION in heats(records)
@@ -247,9 +246,9 @@ def _virgin(alone: Sequence[str] | None, estimated: Sequence[str]) -> str:
     return f"{{density_kg_m3: 1000, conductivity_W_mK: 0.2, specific_heat_J_kgK: {cp}}}"
 
 
-def _inert(records: Sequence[MeasuredFile]) -> Sequence[MeasuredFile]:
-    """Return the records without those in a gas with oxygen, where there are others."""
-    return [run for run in records if not run.in_oxygen] or records
+def _kinetics(records: Sequence[MeasuredFile]) -> KineticsDraft:
+    """Return where to look for the kinetics, by the records without oxygen where there are some."""
+    return draft.kinetics_limits([run for run in records if not run.in_oxygen] or records)
 
 
 def _environment() -> Environment:

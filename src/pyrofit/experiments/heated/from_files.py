@@ -7,8 +7,9 @@ from pyrofit.data.heating import usual_rise
 from pyrofit.experiments.from_files import Frames, FromFiles, Loss, NamedNumber
 from pyrofit.solver.arrays import FloatArray
 
+_MINUTE = r"[ _]?(?:/|per[ _]?)?[ _]?min(?:ute)?(?:\^?[-−]1)?"
 RATE_K_MIN = NamedNumber(
-    "[KC](?:/?min|pm)?",
+    rf"[KC](?:{_MINUTE}|pm)?|(?:(?:[°º]|deg(?:rees?)?[ _.]?)C|℃){_MINUTE}",
     (0.5, 500.0),
     10.0,
     "heating rate",
