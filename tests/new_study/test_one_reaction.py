@@ -5,8 +5,9 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from pyrofit.new_study.draft import kinetics_limits
+from pyrofit.new_study.draft import KineticsDraft, kinetics_limits
 from pyrofit.new_study.one_reaction import Record, one_reaction_describes
+from pyrofit.new_study.words import said_of_scheme
 from pyrofit.solver.arrays import FloatArray
 
 Program = Callable[[FloatArray], FloatArray]
@@ -57,3 +58,22 @@ def test_records_of_one_shape_at_other_temperatures_are_not_one_reaction() -> No
 
 def test_kinetics_without_records_are_not_single() -> None:
     assert not kinetics_limits([]).single
+
+
+@pytest.mark.parametrize(
+    ("residue", "moisture", "single", "charring", "lines"),
+    [
+        (0.20, 0.00, False, True, 0),
+        (0.08, 0.06, False, True, 0),
+        (0.08, 0.06, True, False, 1),
+        (0.08, 0.00, False, False, 1),
+        (0.03, 0.06, False, False, 2),
+        (0.03, 0.00, True, False, 0),
+    ],
+)
+def test_moist_solid_of_several_reactions_chars_and_left_out_ones_are_told(
+    residue: float, moisture: float, single: bool, charring: bool, lines: int
+) -> None:
+    draft = KineticsDraft(residue=residue, known_residue=True, moisture=moisture, single=single)
+    assert draft.charring is charring
+    assert len(said_of_scheme(draft)) == lines

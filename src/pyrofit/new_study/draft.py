@@ -31,7 +31,7 @@ NEAR_K = 5.0
 """Distance [K] from the temperature of a hold within which a number in a name means that."""
 _OFF_ZERO = 0.02
 """Error of the zero of a balance over the initial mass."""
-_PARTS = (-120.0, 20.0), (-100.0, 20.0), (-140.0, 120.0)
+_PARTS = (-120.0, 20.0), (-100.0, 20.0), (-220.0, 120.0)
 """Limits [K] of reference temperatures about those of an eighth, half, seven eighths of the loss.
 
 The rate constant is 0.001 1/s some 20 to 80 K below the peak of a reaction at usual rates.
@@ -132,8 +132,12 @@ class KineticsDraft:
 
     @property
     def charring(self) -> bool:
-        """Whether so much is left that char has properties of its own."""
-        return self.known_residue and self.residue > CHAR
+        """Whether so much is left that char has properties of its own.
+
+        Half as much is char as well if the solid holds water and one reaction does not describe it.
+        """
+        least = 0.5 * CHAR if self.moist and not self.single else CHAR
+        return self.known_residue and self.residue > least
 
     @property
     def parts(self) -> list[tuple[str, str, tuple[int, int], tuple[float, float]]]:
@@ -169,7 +173,7 @@ class KineticsDraft:
         With the water the upper ones add up to one at most.
         """
         dry = min((1.0 - self.moistures[1]) / 0.88, 1.0) if self.moist else 1.0
-        upper = {"early": math.floor(500.0 * dry) / 1e3, "late": math.floor(350.0 * dry) / 1e3}
+        upper = {"early": math.floor(460.0 * dry) / 1e3, "late": math.floor(420.0 * dry) / 1e3}
         return [(name, (min(0.05, 0.5 * most), most)) for name, most in upper.items()]
 
     @property
