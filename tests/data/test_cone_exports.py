@@ -12,7 +12,7 @@ from pyrofit.data.spec import SeriesSpec
 from pyrofit.errors import DataError
 from pyrofit.new_study.draft import read_experiment
 from pyrofit.new_study.pieces import Pieces
-from pyrofit.new_study.words import lines_on_file, signal_lines
+from pyrofit.new_study.words import lines_on_files, signal_lines
 
 TIME = np.arange(0.0, 120.0)
 C, AREA, AMBIENT, DELAY = 0.042, 0.00884, 0.2095, 8.0
@@ -130,7 +130,7 @@ def test_area_of_an_export_divides_the_mass_in_a_new_study(tmp_path: Path) -> No
         run, Pieces([], dense=False)
     )
     assert any(
-        "divided by sample_area_m2 0.00884, of the file" in line for line in lines_on_file(run)
+        "divided by sample_area_m2 0.00884, of the file" in line for line in lines_on_files([run])
     )
 
 

@@ -13,7 +13,7 @@ from pyrofit.data.stated import stated_in
 from pyrofit.errors import DataError
 from pyrofit.new_study import draft
 from pyrofit.new_study.plan import part_of
-from pyrofit.new_study.words import lines_on_file, oxygen_words
+from pyrofit.new_study.words import lines_on_files, oxygen_words
 from pyrofit.new_study.write import drafted
 
 KELVIN = np.linspace(300.0, 900.0, 201)
@@ -189,7 +189,7 @@ def test_record_that_starts_below_the_stated_mass_is_told(first: float, tmp_path
     text, (run,), *_ = drafted("x", {"tga": [path]})
     told = "it starts at 96.0 % of the stated initial mass, as after a drying"
     assert (told in text) == (first < 6.0)
-    assert any(told in line for line in lines_on_file(run)) == (first < 6.0)
+    assert any(told in line for line in lines_on_files([run])) == (first < 6.0)
 
 
 @pytest.mark.parametrize(

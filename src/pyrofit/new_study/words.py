@@ -1,7 +1,8 @@
 """Texts of a new study: the lines of a signal, and the columns that were recognised."""
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
 
 from pyrofit.experiments import files_of
 from pyrofit.experiments.from_files import Told
@@ -12,6 +13,8 @@ from pyrofit.new_study.pieces import Pieces
 from pyrofit.new_study.plan import PartOfPlan
 from pyrofit.quantities.units import SCALES
 
+_NAMED = 6
+"""Files that one line names at most."""
 AREA = "sample_area_m2"
 _MINUTES = 60.0
 _ALIKE = 0.1
@@ -125,8 +128,23 @@ def assumes_area(run: MeasuredFile) -> bool:
     return any(key == AREA and not is_told(found, key) for found, (key, _) in divisors)
 
 
-def lines_on_file(run: MeasuredFile) -> list[str]:
-    """Say in one line how a file was read, and in further ones what is to be looked at."""
+def lines_on_files(runs: Iterable[MeasuredFile]) -> list[str]:
+    """Say how files were read, and what is to be looked at; files of the same share a line."""
+    files: dict[str, list[Path]] = {}
+    for run in runs:
+        for line in _lines_on_file(run):
+            files.setdefault(line, []).append(run.path or Path(run.name))
+    return [f"{_named(paths)}: {line}" for line, paths in files.items()]
+
+
+def _named(paths: Sequence[Path]) -> str:
+    """Name files: the first with its folder, some more without, and the number of the others."""
+    shown = [str(paths[0]), *(path.name for path in paths[1:_NAMED])]
+    more = [f"{len(paths) - _NAMED} more"] if len(paths) > _NAMED else []
+    return ", ".join([*shown, *more])
+
+
+def _lines_on_file(run: MeasuredFile) -> list[str]:
     read = [
         f"{found.signal}: {', '.join(_parts(run, found, i))}" for i, found in enumerate(run.signals)
     ]
@@ -141,7 +159,7 @@ def lines_on_file(run: MeasuredFile) -> list[str]:
         lines.append(f"read until {run.end.time_s:g} s: {run.end.why}")
     elif run.then_gas:
         lines.append(_gas_changes(run))
-    return [f"{run.path}: {line}" for line in lines]
+    return lines
 
 
 def _parts(run: MeasuredFile, found: FoundColumn, place: int) -> list[str]:

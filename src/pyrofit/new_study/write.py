@@ -30,7 +30,7 @@ from pyrofit.new_study.words import (
     assumes_area,
     has_back,
     held_out,
-    lines_on_file,
+    lines_on_files,
     number_comment,
     said_of_repeats,
     said_of_scheme,
@@ -96,9 +96,7 @@ def init(name: str, files: Files, parent: Path) -> tuple[Path, list[str]]:
         tests = grouped_by_names(records) or computed_experiments()
         study = _write(folder, study_text(name, tests), records)
     heated, slabs = (part_of(stage, tests) for stage in STAGES)
-    lines = (
-        [line for run in records for line in lines_on_file(run)] + copied + said_of_repeats(tests)
-    )
+    lines = [*lines_on_files(records), *copied, *said_of_repeats(tests)]
     lines += [*said_of_pieces(tests), *said_of_scheme(_kinetics(records))]
     lines = [line.replace(parts, f"{folder / 'data'}") for line in lines]
     lines = [*_said_of_tables(files, single), *lines]
