@@ -233,7 +233,7 @@ def test_two_planted_effects_are_multiple_and_each_is_found() -> None:
 
 
 def test_one_of_two_planted_effects_explains_a_part_where_one_is_the_most() -> None:
-    verdict = verdict_on(searched(planted(k_T=0.8, c_T=-0.7), most=1))
+    verdict = verdict_on(searched(planted(k_T=0.8, c_T=-0.4), most=1))
     assert verdict.kind == "partly"
     assert verdict.confirmed
     (effect,) = (finding.effect for finding in verdict.findings)
@@ -253,7 +253,7 @@ def test_effect_is_claimed_beside_misfit_only_where_strengths_agree(
 
     real = places.trust
     monkeypatch.setattr(places, "trust", trusted)
-    verdict = verdict_on(searched(planted(k_T=0.8, c_T=-0.7), most=1))
+    verdict = verdict_on(searched(planted(k_T=0.8, c_T=-0.4), most=1))
     asked = "no strengths can be compared" if p_value is None else "different strengths of "
     told = [reason for reason in verdict.reasons if asked in reason]
     if p_value == 0.2:
@@ -276,7 +276,7 @@ def test_effect_is_claimed_beside_misfit_only_if_no_held_out_laboratory_is_again
 
     real = places.trust
     monkeypatch.setattr(places, "trust", trusted)
-    verdict = verdict_on(searched(planted(k_T=0.8, c_T=-0.7), most=1))
+    verdict = verdict_on(searched(planted(k_T=0.8, c_T=-0.4), most=1))
     assert verdict.kind == "unknown"
     assert any("the prediction of A gets worse with " in reason for reason in verdict.reasons)
 
@@ -288,7 +288,7 @@ def test_effect_is_claimed_beside_misfit_only_if_no_other_term_fits_as_well(
     monkeypatch.setattr(
         judging, "other_terms", lambda end, without, *given: [[other] for _ in without]
     )
-    verdict = verdict_on(searched(planted(k_T=0.8, c_T=-0.7), most=1))
+    verdict = verdict_on(searched(planted(k_T=0.8, c_T=-0.4), most=1))
     assert verdict.kind == "unknown"
     assert any(f"may be replaced by {other.words}" in reason for reason in verdict.reasons)
 
@@ -452,6 +452,16 @@ def test_effect_of_one_experiment_is_not_claimed_beside_misfit() -> None:
     assert verdict.kind == "unknown"
     assert [finding.leading for finding in verdict.findings] == ["k_T"]
     assert any("no strengths can be compared" in reason for reason in verdict.reasons)
+
+
+def test_effect_is_not_claimed_beside_misfit_of_several_times_the_noise() -> None:
+    y = planted(k_T=0.8)
+    y[20:26] += 14.0
+    verdict = verdict_on(searched(y))
+    assert verdict.kind == "unknown"
+    assert [finding.leading for finding in verdict.findings] == ["k_T"]
+    (told,) = (reason for reason in verdict.reasons if "times its noise; 3 times is" in reason)
+    assert "the mass loss rate of slab_25 is missed by 4" in told
 
 
 def test_effect_of_both_experiments_explains_a_part_where_misfit_is_left() -> None:

@@ -149,6 +149,8 @@ class Settings:
     """Above this chi-square per point of a signal, its misfit was not mistaken for noise."""
 
     # Tests of a claim
+    misfit_beside_claim: float = 3.0
+    """Beside a larger misfit of a signal, rms over its noise, no effect is claimed."""
     agreement_level: float = 1e-3
     """Strengths of different experiments disagree if chance is less probable than this."""
     firm_agreement: float = 0.05

@@ -1,20 +1,28 @@
 """The verdict: the effects that may be claimed after the search, and how surely."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from pyrofit.diagnose.base.fitted import FittedModel, up_to_date
-from pyrofit.diagnose.base.prediction import HELD_OUT
-from pyrofit.diagnose.judge.findings import Finding, Judged, Verdict
+from pyrofit.diagnose.judge.doubts import (
+    exchanged,
+    hardly_agreeing,
+    infirm,
+    open_to_terms,
+    outvoted,
+    still_missed,
+    title_of,
+    unconfirmed,
+)
+from pyrofit.diagnose.judge.findings import Finding, Verdict
 from pyrofit.diagnose.judge.inflation import inflation_by_misfit
 from pyrofit.diagnose.judge.other_terms import other_terms
 from pyrofit.diagnose.judge.places import end_without_superfluous, findings_of, with_end
 from pyrofit.diagnose.search.refit import look_at
 from pyrofit.diagnose.search.step import SearchContext
 from pyrofit.diagnose.search.stepwise import Search
-from pyrofit.effects import known_effects
 from pyrofit.model.slab import SlabExperiment
 from pyrofit.results.diagnosis_schema import Kind, OfSuspect
 
@@ -54,7 +62,7 @@ def judge(found: Search, rng: np.random.Generator, processes: int = 1) -> Verdic
         if part:
             return part
     if not found.end_lack.adequate:
-        reasons = [f"{_title(effect)}: {why}" for effect, why in failed] or reasons
+        reasons = [f"{title_of(effect)}: {why}" for effect, why in failed] or reasons
         reasons.append("the residuals exceed the noise, with every effect that gains enough")
     of_base = found.rounds[0].lack()
     if reasons and of_base.passes:
@@ -86,7 +94,7 @@ def _support(finding: Finding) -> str:
     """State the evidence for an effect that no doubt is left about."""
     rise = sum(finding.kept[0].trust.gains.values())
     said = f", and the log score of predictions rises by {rise:.1f}" if rise else ""
-    return f"{_title(finding.leading)} passes every test of a claim{said}"
+    return f"{title_of(finding.leading)} passes every test of a claim{said}"
 
 
 def _with_other_terms(
@@ -105,7 +113,7 @@ def _with_other_terms(
 
 def _reasons(findings: Sequence[Finding]) -> list[str]:
     first = [(finding.effect, finding.judged[0].rejected) for finding in findings]
-    return [f"{_title(effect)}: {rejected}" for effect, rejected in first if rejected]
+    return [f"{title_of(effect)}: {rejected}" for effect, rejected in first if rejected]
 
 
 def _partly(
@@ -159,7 +167,7 @@ def _judged_beside_misfit(
         findings = tuple(_with_other_terms(found, findings, without, context.processes))
         for k, finding in enumerate(findings):
             if finding.open_terms:
-                return (), (k, _open_terms(finding))
+                return (), (k, open_to_terms(finding))
     return findings, None
 
 
@@ -189,10 +197,11 @@ def _against(finding: Finding, beside_misfit: bool) -> str:
         return first.rejected
     if not finding.group:
         return finding.open_words
-    doubts = [_unconfirmed(j) for j in finding.kept if not j.trust.confirmed][:1]
-    doubts += _infirm(finding)
+    doubts = [unconfirmed(j) for j in finding.kept if not j.trust.confirmed][:1]
+    doubts += infirm(finding)
     if beside_misfit:
-        doubts += [*_outvoted(finding.kept), *_instead([finding]), *_hardly_agreeing(finding)]
+        doubts += [*outvoted(finding.kept), *exchanged([finding]), *hardly_agreeing(finding)]
+        doubts += still_missed(finding)
     return ". ".join([*doubts[:1], *(f"{said[0].upper()}{said[1:]}" for said in doubts[1:])])
 
 
@@ -231,109 +240,12 @@ def doubts_of(found: Search, findings: Sequence[Finding]) -> list[str]:
     if not all(finding.explains for finding in findings):
         doubts.append("the model does not explain held-out signals, even if they are fitted too")
     kept = [judged for finding in findings for judged in finding.kept]
-    doubts += map(_unconfirmed, (j for j in kept if not (j.trust.outvoted or j.trust.confirmed)))
-    doubts += _outvoted(kept)
-    open_terms = [_open_terms(finding) for finding in findings if finding.open_terms]
+    doubts += map(unconfirmed, (j for j in kept if not (j.trust.outvoted or j.trust.confirmed)))
+    doubts += outvoted(kept)
+    open_terms = [open_to_terms(finding) for finding in findings if finding.open_terms]
     if open_terms:
         doubts += [*open_terms, "the reason may be an effect outside the catalogue"]
-    doubts += _instead(findings)
-    doubts += [words for finding in findings for words in _infirm(finding)]
+    doubts += exchanged(findings)
+    doubts += [words for finding in findings for words in infirm(finding)]
     open_ones = [finding for finding in findings if not finding.group]
     return doubts + [finding.open_words for finding in open_ones]
-
-
-def _infirm(finding: Finding) -> Iterator[str]:
-    """Say why the leading effect is not firm, and the measurement to make."""
-    effect = known_effects()[finding.leading]
-    if finding.implausible:
-        (quantity,) = effect.strength.values()
-        strength = finding.judged[0].trial.strength(finding.leading)
-        unit = "" if quantity.unit == "-" else f" {quantity.unit}"
-        check = f": {effect.check}" if effect.check else ""
-        yield (
-            f"the apparatus is described incompletely: the {quantity.label} would be "
-            f"{strength:.3g}{unit}, {finding.implausible:.2g} standard deviations from the "
-            f"plausible value{check}"
-        )
-    if finding.wrong_instead:
-        yield (
-            f"the known value of {' and '.join(finding.wrong_instead)} may be wrong instead: "
-            f"without it, the model fits as well without {effect.title}"
-        )
-    if not finding.weighs:
-        least = finding.judged[0].trial.settings.claimed_weight
-        yield (
-            f"{100.0 * finding.weight:.0f} % of the weight of all models have an effect of the "
-            f"group {effect.group}; a claim needs {100.0 * least:g} %"
-        )
-
-
-def _open_terms(finding: Finding) -> str:
-    """Name other terms of the model that explain the data nearly as well as an effect does."""
-    return (
-        f"{_title(finding.leading)} may be replaced by {', or '.join(finding.open_terms)}, with "
-        "nearly as good a fit"
-    )
-
-
-def _instead(findings: Sequence[Finding]) -> list[str]:
-    """Name two effects that explain the data nearly as well as one, or one as two."""
-    exchanges = {one.replaced: one for finding in findings for one in finding.instead}
-    return [
-        f"{_joined(one.replaced)} may be replaced by {_joined(one.by)}, with nearly as good a fit"
-        for one in exchanges.values()
-    ]
-
-
-def _hardly_agreeing(finding: Finding) -> Iterator[str]:
-    """Say that the experiments do not agree well enough on the strength for a claim beside misfit.
-
-    An effect that stands for another one explains a part of each experiment, with a strength of its
-    own in each. Where only noise is left, the tests of the residuals tell this.
-    """
-    first = finding.kept[0]
-    p = first.trust.disagree
-    if p is None:
-        yield f"one experiment alone shows {_title(first.effect)}, so no strengths can be compared"
-    elif p < first.trial.settings.firm_agreement:
-        yield (
-            f"the experiments ask for different strengths of {_title(first.effect)} (p = {p:.2g}, "
-            f"{first.trial.settings.firm_agreement:g} is needed beside other misfit)"
-        )
-
-
-def _joined(effects: Sequence[str]) -> str:
-    return " together with ".join(map(_title, effects))
-
-
-def _title(effect: str) -> str:
-    return known_effects()[effect].title
-
-
-def _unconfirmed(judged: Judged) -> str:
-    if not judged.trust.predicts:
-        return f"no prediction clearly confirms {_title(judged.effect)}"
-    trust = judged.trust
-    out = trust.worse[0].removeprefix(f"{HELD_OUT}: ") if trust.outvoted else ""
-    beside = f" beside {out}" if out else ""
-    return (
-        f"with {_title(judged.effect)}, the log score of held-out signals{beside} gains "
-        f"{trust.held_out_gain:+.1f} only; a confirmation needs {trust.settings.informative_gain:g}"
-    )
-
-
-def _outvoted(judged: Sequence[Judged]) -> list[str]:
-    """Say with which effects one held-out experiment is predicted worse, against several others."""
-    by_name: dict[str, list[str]] = {}
-    for one in judged:
-        if one.trust.outvoted:
-            (name,) = one.trust.worse
-            by_name.setdefault(name, []).append(
-                f"{_title(one.effect)} ({one.trust.gains[name]:+.1f})"
-            )
-    return [
-        f"the prediction of {name.removeprefix(f'{HELD_OUT}: ')} gets worse with "
-        f"{', '.join(worse)} (log score in brackets), others improve: check how its "
-        "apparatus is described"
-        for name, worse in by_name.items()
-    ]
