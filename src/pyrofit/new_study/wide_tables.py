@@ -103,8 +103,9 @@ def _value(text: str) -> float:
 
 def _tests(kind: str, table: FileTable) -> list[PartOfTable]:
     """Return the tests of a table; none if they are not clear."""
-    if table.blocks:
-        return _clear(_test_of_block(kind, table, block) for block in table.blocks)
+    blocks = _clear(_test_of_block(kind, table, block) for block in table.blocks)
+    if blocks:
+        return blocks
     labels = {name: label_of_header(kind, name) for name in table.columns}
     own = {name: label for name, label in labels.items() if label is not None}
     shared = [name for name in table.columns if name not in own]
