@@ -37,13 +37,11 @@ def infirm(finding: Finding) -> Iterator[str]:
 
 def open_to_terms(finding: Finding) -> str:
     """Name other terms of the model that explain the data nearly as well as an effect does."""
-    return (
-        f"{title_of(finding.leading)} may be replaced by {', or '.join(finding.open_terms)}, with "
-        "nearly as good a fit"
-    )
+    terms = ", or ".join(finding.open_terms)
+    return f"{effect_title(finding.leading)} may be replaced by {terms}, with nearly as good a fit"
 
 
-def exchanged(findings: Sequence[Finding]) -> list[str]:
+def replaceable(findings: Sequence[Finding]) -> list[str]:
     """Name two effects that explain the data nearly as well as one, or one as two."""
     exchanges = {one.replaced: one for finding in findings for one in finding.instead}
     return [
@@ -59,7 +57,7 @@ def hardly_agreeing(finding: Finding) -> Iterator[str]:
     own in each. Where only noise is left, the tests of the residuals tell this.
     """
     first = finding.kept[0]
-    p, title = first.trust.disagree, title_of(first.effect)
+    p, title = first.trust.disagree, effect_title(first.effect)
     if p is None:
         yield f"one experiment alone shows {title}, so no strengths can be compared"
     elif p < first.trial.settings.firm_agreement:
@@ -84,17 +82,17 @@ def still_missed(finding: Finding) -> Iterator[str]:
         name, signal = problem.picks[place][:2]
         experiment = problem.runs[name].experiment
         yield (
-            f"with {title_of(first.effect)}, the {experiment.words(signal)} of "
+            f"with {effect_title(first.effect)}, the {experiment.words(signal)} of "
             f"{experiment.title or name} is missed by {misfits[place]:.2g} times its noise; "
             f"{most:g} times is the most beside a claim"
         )
 
 
 def _joined(effects: Sequence[str]) -> str:
-    return " together with ".join(map(title_of, effects))
+    return " together with ".join(map(effect_title, effects))
 
 
-def title_of(effect: str) -> str:
+def effect_title(effect: str) -> str:
     """Return the title of an effect."""
     return known_effects()[effect].title
 
@@ -102,12 +100,12 @@ def title_of(effect: str) -> str:
 def unconfirmed(judged: Judged) -> str:
     """Say that predictions do not confirm an effect."""
     if not judged.trust.predicts:
-        return f"no prediction clearly confirms {title_of(judged.effect)}"
+        return f"no prediction clearly confirms {effect_title(judged.effect)}"
     trust = judged.trust
     out = trust.worse[0].removeprefix(f"{HELD_OUT}: ") if trust.outvoted else ""
     beside = f" beside {out}" if out else ""
     return (
-        f"with {title_of(judged.effect)}, the log score of held-out signals{beside} gains "
+        f"with {effect_title(judged.effect)}, the log score of held-out signals{beside} gains "
         f"{trust.held_out_gain:+.1f} only; a confirmation needs {trust.settings.informative_gain:g}"
     )
 
@@ -119,7 +117,7 @@ def outvoted(judged: Sequence[Judged]) -> list[str]:
         if one.trust.outvoted:
             (name,) = one.trust.worse
             by_name.setdefault(name, []).append(
-                f"{title_of(one.effect)} ({one.trust.gains[name]:+.1f})"
+                f"{effect_title(one.effect)} ({one.trust.gains[name]:+.1f})"
             )
     return [
         f"the prediction of {name.removeprefix(f'{HELD_OUT}: ')} gets worse with "

@@ -7,13 +7,13 @@ import numpy as np
 
 from pyrofit.diagnose.base.fitted import FittedModel, up_to_date
 from pyrofit.diagnose.judge.doubts import (
-    exchanged,
+    effect_title,
     hardly_agreeing,
     infirm,
     open_to_terms,
     outvoted,
+    replaceable,
     still_missed,
-    title_of,
     unconfirmed,
 )
 from pyrofit.diagnose.judge.findings import Finding, Verdict
@@ -62,7 +62,7 @@ def judge(found: Search, rng: np.random.Generator, processes: int = 1) -> Verdic
         if part:
             return part
     if not found.end_lack.adequate:
-        reasons = [f"{title_of(effect)}: {why}" for effect, why in failed] or reasons
+        reasons = [f"{effect_title(effect)}: {why}" for effect, why in failed] or reasons
         reasons.append("the residuals exceed the noise, with every effect that gains enough")
     of_base = found.rounds[0].lack()
     if reasons and of_base.passes:
@@ -94,7 +94,7 @@ def _support(finding: Finding) -> str:
     """State the evidence for an effect that no doubt is left about."""
     rise = sum(finding.kept[0].trust.gains.values())
     said = f", and the log score of predictions rises by {rise:.1f}" if rise else ""
-    return f"{title_of(finding.leading)} passes every test of a claim{said}"
+    return f"{effect_title(finding.leading)} passes every test of a claim{said}"
 
 
 def _with_other_terms(
@@ -113,7 +113,7 @@ def _with_other_terms(
 
 def _reasons(findings: Sequence[Finding]) -> list[str]:
     first = [(finding.effect, finding.judged[0].rejected) for finding in findings]
-    return [f"{title_of(effect)}: {rejected}" for effect, rejected in first if rejected]
+    return [f"{effect_title(effect)}: {rejected}" for effect, rejected in first if rejected]
 
 
 def _partly(
@@ -200,7 +200,7 @@ def _against(finding: Finding, beside_misfit: bool) -> str:
     doubts = [unconfirmed(j) for j in finding.kept if not j.trust.confirmed][:1]
     doubts += infirm(finding)
     if beside_misfit:
-        doubts += [*outvoted(finding.kept), *exchanged([finding]), *hardly_agreeing(finding)]
+        doubts += [*outvoted(finding.kept), *replaceable([finding]), *hardly_agreeing(finding)]
         doubts += still_missed(finding)
     return ". ".join([*doubts[:1], *(f"{said[0].upper()}{said[1:]}" for said in doubts[1:])])
 
@@ -245,7 +245,7 @@ def doubts_of(found: Search, findings: Sequence[Finding]) -> list[str]:
     open_terms = [open_to_terms(finding) for finding in findings if finding.open_terms]
     if open_terms:
         doubts += [*open_terms, "the reason may be an effect outside the catalogue"]
-    doubts += exchanged(findings)
+    doubts += replaceable(findings)
     doubts += [words for finding in findings for words in infirm(finding)]
     open_ones = [finding for finding in findings if not finding.group]
     return doubts + [finding.open_words for finding in open_ones]
