@@ -83,9 +83,9 @@ def _where(given: argparse.Namespace) -> None:
 
 def _add_kinds(init: argparse.ArgumentParser) -> None:
     """Add an option for the files of each kind of experiment."""
-    init.add_argument("unsorted", nargs="*", help=argparse.SUPPRESS)
     from pyrofit.experiments import OF_FILES, files_of
 
+    init.add_argument("unsorted", nargs="*", help=argparse.SUPPRESS)
     for name in OF_FILES:
         text = files_of(name).help
         init.add_argument(f"--{name}", type=Path, nargs="+", default=[], metavar="CSV", help=text)

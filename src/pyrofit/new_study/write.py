@@ -94,10 +94,11 @@ def init(name: str, files: Files, parent: Path) -> tuple[Path, list[str]]:
         single = {kind: _split(kind, paths, Path(parts)) for kind, paths in files.items()}
         records, copied = without_copies(_records(single))
         tests = grouped_by_names(records) or computed_experiments()
-        study = _write(folder, study_text(name, tests), records)
+        kinetics = _kinetics(records)
+        study = _write(folder, study_text(name, tests, kinetics), records)
     heated, slabs = (part_of(stage, tests) for stage in STAGES)
     lines = [*lines_on_files(records), *copied, *said_of_repeats(tests)]
-    lines += [*said_of_pieces(tests), *said_of_scheme(_kinetics(records))]
+    lines += [*said_of_pieces(tests), *said_of_scheme(kinetics)]
     lines = [line.replace(parts, f"{folder / 'data'}") for line in lines]
     lines = [*_said_of_tables(files, single), *lines]
     lines += held_out(heated) if heated.held_out else []
@@ -142,7 +143,7 @@ def drafted(name: str, files: Files) -> tuple[str, list[MeasuredFile], list[str]
     """
     _check_name(name)
     records, copied = without_copies(_records(files))
-    return study_text(name, grouped_by_names(records)), records, copied
+    return study_text(name, grouped_by_names(records), _kinetics(records)), records, copied
 
 
 def _write(folder: Path, text: str, records: Sequence[MeasuredFile]) -> Path:
@@ -175,12 +176,10 @@ def computed_experiments() -> list[MeasuredFile]:
     ]
 
 
-def study_text(name: str, tests: Sequence[MeasuredFile]) -> str:
+def study_text(name: str, tests: Sequence[MeasuredFile], kinetics: KineticsDraft) -> str:
     """Return the study file."""
     synthetic = any(test.path is None for test in tests)
     records = [run for test in tests for run in test.repeats or (test,)]
-    measured = [run for run in records if run.path is not None]
-    kinetics = _kinetics(measured) if measured else KineticsDraft(550.0, 680.0, 0.02)
     heated, slabs = (part_of(stage, tests) for stage in STAGES)
     shown = [_HEATS[key] for key in heats(heated.fitted)]
     burns = _COMBUSTION in heats(records)
@@ -245,7 +244,12 @@ def _virgin(alone: Sequence[str] | None, estimated: Sequence[str]) -> str:
 
 
 def _kinetics(records: Sequence[MeasuredFile]) -> KineticsDraft:
-    """Return where to look for the kinetics, by the records without oxygen where there are some."""
+    """Return where to look for the kinetics, by the records without oxygen where there are some.
+
+    Without any record the measurements are computed, and the limits are those of their material.
+    """
+    if not records:
+        return KineticsDraft(550.0, 680.0, 0.02)
     return draft.kinetics_limits([run for run in records if not run.in_oxygen] or records)
 
 
